@@ -17,6 +17,7 @@
 #include "collision/simd/kernels/placement-inl.h"
 #include "collision/simd/kernels/solids-inl.h"
 #include "collision/simd/kernels/tables-inl.h"
+#include "collision/simd/kernels/verdicts-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
@@ -35,12 +36,7 @@ class CheckPass {
         placement_(robot, buffers, query.q, lane),
         motions_(robot, buffers, query, lane, placement_),
         hulls_(robot, buffers, placement_),
-        alive_(alive),
-        hits_(hn::FirstN(Lanes(), 0)),
-        hits_before_(hits_),
-        certain_(hn::FirstN(Lanes(), 0)),
-        doubts_(hits_),
-        doubts_before_(hits_) {}
+        verdicts_(alive, query.stop_at_first) {}
 
   void Run() {
     const bool finds_open = kAround && query_.tests == Tests::kFindOpen;
@@ -56,65 +52,26 @@ class CheckPass {
       if (query_.tests == Tests::kScreen && test >= num_trees) continue;
       const bool found = test < num_trees ? TestWorld(trees[test])
                                           : TestPair(robot_.pairs.data()[test - num_trees]);
-      if (finds_open) KeepIfOpen(test);
+      if (finds_open && !None(verdicts_.BeginNext())) Keep(test);
       if (!found) continue;
       // One step to the front at a time: what hits often comes early.
       if (i > 0) std::swap(order[i], order[i - 1]);
-      if ((query_.stop_at_first && !None(certain_)) || None(alive_)) return;
+      if (verdicts_.Done()) return;
     }
     for (const InsideTest& test : robot_.inside_tests) {
       if (TestPoints(test)) return;
     }
   }
 
-  LaneMask hits() const { return Bits(hn::Or(hits_, hits_before_)); }
-  LaneMask certain() const { return Bits(certain_); }
-  LaneMask doubts() const { return Bits(hn::AndNot(certain_, hn::Or(doubts_, doubts_before_))); }
+  BlockVerdict verdict() const { return verdicts_.InBits(); }
 
  private:
-  /// Keeps the test just made if it left any lane open. The next one starts as if none were: it is
-  /// to be known whether that leaves them open, too.
-  void KeepIfOpen(int test) {
-    const M open = hn::Or(hits_, doubts_);
-    hits_before_ = hn::Or(hits_before_, std::exchange(hits_, hn::FirstN(Lanes(), 0)));
-    doubts_before_ = hn::Or(doubts_before_, std::exchange(doubts_, hn::FirstN(Lanes(), 0)));
+  /// Keeps a test that left a lane open.
+  void Keep(int test) {
     unsigned char& is_open = buffers_.is_open[static_cast<std::size_t>(test)];
-    if (is_open != 0 || None(open)) return;
+    if (is_open != 0) return;
     is_open = 1;
     buffers_.open.push_back(test);
-  }
-
-  /// Radius grown by the motion; lanes not proven free already matter no more but for certainty.
-  HWY_INLINE V Grown(float radius, V motion) const {
-    if constexpr (kAround) return Fill(radius) + hn::IfThenZeroElse(hits_, motion);
-    return Fill(radius);
-  }
-
-  /// Takes note of balls (of one node, or the sum of a pair) of a radius that come within `grown`.
-  /// Returns true to stop.
-  HWY_INLINE bool Note(V squared, float radius, M touching, bool doubtful) {
-    touching = hn::And(touching, alive_);
-    if (None(touching)) return false;
-    if (doubtful) {
-      doubts_ = hn::Or(doubts_, touching);
-      return false;
-    }
-    hits_ = hn::Or(hits_, touching);
-    M certain = touching;
-    if constexpr (kAround) {
-      certain = hn::And(certain, hn::Le(squared, Fill(radius * radius)));
-      if (None(certain)) return false;
-    }
-    certain_ = hn::Or(certain_, certain);
-    alive_ = hn::AndNot(certain, alive_);
-    return query_.stop_at_first || None(alive_);
-  }
-
-  /// Takes note of lanes in which what is inside of the robot for certain, of that radius, is
-  /// within it of something. Returns true to stop.
-  HWY_INLINE bool NoteInner(V squared, float inner) {
-    const M deep = hn::And(alive_, hn::Le(squared, Fill(inner * inner)));
-    return !None(deep) && Settle(deep);
   }
 
   /// Whether what is inside of a node's ball tells of a solid.
@@ -135,35 +92,6 @@ class CheckPass {
     return robot_.insides[static_cast<std::size_t>(index)];
   }
 
-  /// Takes note of what touches(lane, margin) in the lanes given; `motion` bounds that of all of
-  /// its points, `padding` is part of every margin. Returns true to stop.
-  template <typename Touches>
-  bool NoteExact(M lanes, V motion, float padding, Touches touches) {
-    alignas(64) float margins[kBlock];
-    Store(hn::IfThenZeroElse(hits_, motion), margins);
-    LaneMask touching = 0;
-    LaneMask certain = 0;
-    for (LaneMask open = Bits(lanes); open != 0; open &= open - 1) {
-      const int lane = std::countr_zero(open);
-      if (!touches(lane, margins[lane] + padding)) continue;
-      touching |= LaneMask{1} << lane;
-      if (margins[lane] > 0 && !touches(lane, padding)) continue;
-      certain |= LaneMask{1} << lane;
-      if (query_.stop_at_first) break;
-    }
-    if (touching == 0) return false;
-    hits_ = hn::Or(hits_, MaskOf(touching));
-    return certain != 0 && Settle(MaskOf(certain));
-  }
-
-  /// Takes note of lanes that collide for certain. Returns true to stop.
-  bool Settle(M certain) {
-    hits_ = hn::Or(hits_, certain);
-    certain_ = hn::Or(certain_, certain);
-    alive_ = hn::AndNot(certain, alive_);
-    return query_.stop_at_first || None(alive_);
-  }
-
   /// Points in W, or boxes of that extent about them, that collide where a closed mesh encloses
   /// them, as nothing touches its surface. Returns true to stop.
   bool TestInside(const Inside& inside, const Points& p_W, float extent, M lanes, bool doubtful) {
@@ -175,7 +103,7 @@ class CheckPass {
     lanes = hn::And(hn::And(lanes, within(p.x, 0)), hn::And(within(p.y, 1), within(p.z, 2)));
     if (None(lanes)) return false;
     if (doubtful) {
-      doubts_ = hn::Or(doubts_, lanes);
+      verdicts_.Doubt(lanes);
       return false;
     }
     alignas(64) float x[kBlock], y[kBlock], z[kBlock];
@@ -188,7 +116,7 @@ class CheckPass {
       const float point[3] = {x[lane], y[lane], z[lane]};
       if (Encloses(inside, point)) certain |= LaneMask{1} << lane;
     }
-    return certain != 0 && Settle(MaskOf(certain));
+    return certain != 0 && verdicts_.Settle(MaskOf(certain));
   }
 
   /// Returns true to stop.
@@ -198,11 +126,11 @@ class CheckPass {
     const Poses X_WC = placement_.PosesOf(test.body_of);
     const V squared = SquaredNorm(X_WC * Fill(test.center) - placement_.Position(test.root_in));
     const M touching = hn::Le(squared, Squared(Fill(in.radius + test.radius)));
-    if (None(hn::And(alive_, touching))) return false;
+    if (None(hn::And(verdicts_.alive(), touching))) return false;
     for (const auto& point : test.points) {
       const Points p = X_WC * Fill(point.data());
       for (int k = 0; k < in.num_insides; ++k) {
-        const M lanes = hn::And(alive_, touching);
+        const M lanes = hn::And(verdicts_.alive(), touching);
         if (TestInside(InsideAt(in.first_inside + k), p, 0, lanes, test.doubtful)) return true;
       }
     }
@@ -224,7 +152,7 @@ class CheckPass {
       const V squared = SquaredNorm(in_W(ball.center) - placement_.Position(node));
       const M near = hn::Le(squared, Squared(reach));
       for (int i = ball.first; i < ball.first + ball.num; ++i) {
-        const M lanes = hn::And(alive_, near);
+        const M lanes = hn::And(verdicts_.alive(), near);
         if (None(lanes)) break;
         const Points p = in_W(mesh.tree->points[static_cast<std::size_t>(i)].data());
         if (TestInside(inside, p, 0, lanes, false)) return true;
@@ -249,7 +177,8 @@ class CheckPass {
         if (solid.extent > inside.extent) continue;
         // Of what is in a bounding box no point is known: somewhere within it.
         const float extent = solid.doubtful ? 2 * solid.extent : 0.0f;
-        if (TestInside(inside, Fill(solid.center), extent, alive_, solid.doubtful)) return true;
+        if (TestInside(inside, Fill(solid.center), extent, verdicts_.alive(), solid.doubtful))
+          return true;
       }
     }
     return false;
@@ -258,7 +187,7 @@ class CheckPass {
   bool TestWorld(const WorldTree& tree) {
     const bool on_grid = world_.grid && !tree.doubtful;
     if (tree.num_candidates == 0 && !on_grid) return false;
-    const M before = certain_;
+    const M before = verdicts_.certain();
     placement_.PlaceRoot(tree.root, tree.body);
     reach_ = tree.reach;
     const V motion = motions_.Of(reach_, reach_.first);
@@ -271,11 +200,12 @@ class CheckPass {
       }
     } else {
       std::int32_t* list = buffers_.lists.data();
-      const V reach = Grown(placement_.node(tree.root).radius, motion);
-      const int num = ListNear(world_, placement_.Position(tree.root), reach, alive_, list);
+      const V reach = verdicts_.Grown(placement_.node(tree.root).radius, motion);
+      const int num =
+          ListNear(world_, placement_.Position(tree.root), reach, verdicts_.alive(), list);
       if (num > 0) VisitWorld(tree.root, tree.body, motion, list, num, list + num);
     }
-    return !None(hn::AndNot(before, certain_));
+    return !None(hn::AndNot(before, verdicts_.certain()));
   }
 
   /// Tests a subtree against the solids of a list; `free_list` is memory for further lists. Returns
@@ -289,14 +219,14 @@ class CheckPass {
                                          : TestLeaf(node, p, motion, list, num);
       return stops || TestInsides(index, list, num);
     }
-    const V grown = Grown(node.radius, motion);
+    const V grown = verdicts_.Grown(node.radius, motion);
     const V reach = Squared(grown);
     int num_near = 0;
     for (int i = 0; i < num; ++i) {
       const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
       const V squared = SquaredDistance(solid, p);
-      if (IsInner(node, solid) && NoteInner(squared, node.inner)) return true;
-      const M near = hn::And(alive_, hn::Le(squared, reach));
+      if (IsInner(node, solid) && verdicts_.NoteInner(squared, node.inner)) return true;
+      const M near = hn::And(verdicts_.alive(), hn::Le(squared, reach));
       free_list[num_near] = list[i];
       num_near += !None(near) && MayBeNear(world_, solid, p, grown, near) ? 1 : 0;
     }
@@ -315,26 +245,26 @@ class CheckPass {
   bool TestPatch(int index, int body, const Points& p, const std::int32_t* list, int num) {
     const Node& node = placement_.node(index);
     const PatchView patch = PatchOf(index);
-    const V grown = Grown(node.radius, motions_.Of(reach_, node.reach));
+    const V grown = verdicts_.Grown(node.radius, motions_.Of(reach_, node.reach));
     const V reach = Squared(grown);
     for (int i = 0; i < num; ++i) {
       const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
       const V squared = SquaredDistance(solid, p);
-      if (IsInner(node, solid) && NoteInner(squared, node.inner)) return true;
-      M near = hn::And(alive_, hn::Le(squared, reach));
+      if (IsInner(node, solid) && verdicts_.NoteInner(squared, node.inner)) return true;
+      M near = hn::And(verdicts_.alive(), hn::Le(squared, reach));
       if (None(near)) continue;
       const V motion = motions_.Of(reach_, ReachOfPoints(node));
       const MovingPart part = PartOf(index, body);
       near = hulls_.NotApartFrom(solid, index, body, Motion(motion, part.weights, part), near);
       if (None(near)) continue;
       if (solid.doubtful) {
-        doubts_ = hn::Or(doubts_, near);
+        verdicts_.Doubt(near);
         continue;
       }
       const auto touches = [&](int lane, float margin) {
         return PatchMeetsSolid(patch, placement_.PosesOf(body).InLane(lane), world_, solid, margin);
       };
-      if (NoteExact(near, motion, patch.patch.padding, touches)) return true;
+      if (verdicts_.NoteExact(near, motion, patch.patch.padding, touches)) return true;
     }
     return false;
   }
@@ -349,34 +279,34 @@ class CheckPass {
   HWY_INLINE auto Motion(V most, const float* moves, const MovingPart& part,
                          const MovingPart* other = nullptr) const {
     if constexpr (kAround) {
-      return RelativeMotion(motions_, most, moves, hn::Not(hits_), part, other);
+      return RelativeMotion(motions_, most, moves, hn::Not(verdicts_.hits()), part, other);
     } else {
       return StandingStill();
     }
   }
   HWY_INLINE bool TestLeaf(const Node& node, const Points& p, V motion, const std::int32_t* list,
                            int num) {
-    const V grown = Grown(node.radius, motion);
+    const V grown = verdicts_.Grown(node.radius, motion);
     V reach = Squared(grown);
     V least = Fill(std::numeric_limits<float>::max());
     for (int i = 0; i < num; ++i) {
       const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
       V squared = SquaredDistance(solid, p);
       if (HWY_UNLIKELY(solid.mesh >= 0)) {
-        squared =
-            SquaredMeshDistance(world_, solid, p, grown, hn::And(alive_, hn::Le(squared, reach)));
+        squared = SquaredMeshDistance(world_, solid, p, grown,
+                                      hn::And(verdicts_.alive(), hn::Le(squared, reach)));
       }
       if (HWY_UNLIKELY(solid.doubtful)) {
-        Note(squared, node.radius, hn::Le(squared, reach), true);
+        verdicts_.Note(squared, node.radius, hn::Le(squared, reach), true);
       } else {
         least = hn::Min(least, squared);
       }
     }
     if constexpr (kAround) {
-      if (None(hn::And(alive_, hn::Le(least, reach)))) return false;
-      reach = Squared(Grown(node.radius, motions_.Of(reach_, node.reach)));
+      if (None(hn::And(verdicts_.alive(), hn::Le(least, reach)))) return false;
+      reach = Squared(verdicts_.Grown(node.radius, motions_.Of(reach_, node.reach)));
     }
-    return Note(least, node.radius, hn::Le(least, reach), doubtful_);
+    return verdicts_.Note(least, node.radius, hn::Le(least, reach), doubtful_);
   }
 
   bool VisitGrid(int index, int body, V motion) {
@@ -385,10 +315,10 @@ class CheckPass {
     const DistanceGrid& grid = *world_.grid;
     if (node.num_children == 0) {
       if constexpr (kAround) {
-        const M open = hn::AndNot(hits_, alive_);
+        const M open = hn::AndNot(verdicts_.hits(), verdicts_.alive());
         if (!None(open)) {
-          hits_ = hn::Or(
-              hits_, MeetsGridAround(grid, p, motions_.Of(reach_, node.reach), node.radius, open));
+          verdicts_.Block(
+              MeetsGridAround(grid, p, motions_.Of(reach_, node.reach), node.radius, open));
         }
       }
       // Note compares squares; what is certain is compared here.
@@ -396,14 +326,14 @@ class CheckPass {
       M meets = hn::Lt(distance, Fill(node.radius));
       if constexpr (!kAround) {
         if (HWY_UNLIKELY(grid.is_far)) {
-          meets = hn::Or(meets, MeetsGridAround(grid, p, Zero(), node.radius, alive_));
+          meets = hn::Or(meets, MeetsGridAround(grid, p, Zero(), node.radius, verdicts_.alive()));
         }
       }
-      return Note(Zero(), node.radius, meets, false);
+      return verdicts_.Note(Zero(), node.radius, meets, false);
     }
     // Nothing is known of what a ball of balls outside of the grid has inside of it.
-    const V limit = Grown(node.radius, motion) + Fill(GridSlack(grid));
-    if (None(hn::And(alive_, hn::Lt(GridDistance(grid, p, 0.0f), limit)))) return false;
+    const V limit = verdicts_.Grown(node.radius, motion) + Fill(GridSlack(grid));
+    if (None(hn::And(verdicts_.alive(), hn::Lt(GridDistance(grid, p, 0.0f), limit)))) return false;
     placement_.PlaceChildren(index, body);
     for (int i = 0; i < node.num_children; ++i) {
       if (VisitGrid(node.first_child + i, body, motion)) return true;
@@ -417,7 +347,8 @@ class CheckPass {
     placement_.PlaceRoot(pair.root_b, pair.body_b);
     const V squared =
         SquaredNorm(placement_.Position(pair.root_b) - placement_.Position(pair.root_a));
-    if (None(Within(squared, Grown(pair.radius, motions_.AtMost(pair.reach))))) return false;
+    if (None(Within(squared, verdicts_.Grown(pair.radius, motions_.AtMost(pair.reach)))))
+      return false;
     return pair.num_behind > 0 ? TestBehind(&pair) : VisitRoots(pair, squared);
   }
 
@@ -426,14 +357,15 @@ class CheckPass {
     reach_ = gate.reach;
     const JointTable& table = robot_.tables[static_cast<std::size_t>(gate.table)];
     const V apart = TableBound(table, query_.q + lane_);
-    return !None(hn::And(alive_, hn::Le(apart, Grown(0, motions_.Of(reach_, reach_.first)))));
+    return !None(hn::And(verdicts_.alive(),
+                         hn::Le(apart, verdicts_.Grown(0, motions_.Of(reach_, reach_.first)))));
   }
 
   HWY_NOINLINE bool TestBehind(const TreePair* gate) {
     bool found = false;
     for (int i = 1; i <= gate->num_behind; ++i) {
       found = TestPair(gate[i]) || found;
-      if (found && (query_.stop_at_first || None(alive_))) break;
+      if (found && verdicts_.Done()) break;
     }
     return found;
   }
@@ -441,11 +373,11 @@ class CheckPass {
   HWY_NOINLINE bool VisitRoots(const TreePair& pair, V squared) {
     reach_ = pair.reach;
     const V motion = motions_.Of(reach_, reach_.first);
-    M touching = Within(squared, Grown(pair.radius, motion));
+    M touching = Within(squared, verdicts_.Grown(pair.radius, motion));
     if (None(touching)) return false;
     doubtful_ = pair.doubtful;
     hulls_.Begin(pair.body_a, pair.body_b);
-    const M before = certain_;
+    const M before = verdicts_.certain();
     if (placement_.node(pair.root_a).num_children == 0 &&
         placement_.node(pair.root_b).num_children == 0) {
       NotePair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, squared, pair.radius, touching);
@@ -454,7 +386,7 @@ class CheckPass {
       if (None(touching)) return false;
       VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, motion, touching);
     }
-    return !None(hn::AndNot(before, certain_));
+    return !None(hn::AndNot(before, verdicts_.certain()));
   }
 
   /// NotApart of nodes that are not both leaves, if they have hulls, by the bound of their trees.
@@ -480,7 +412,7 @@ class CheckPass {
   }
 
   HWY_INLINE M Within(V squared, V grown) const {
-    return hn::And(alive_, hn::Le(squared, Squared(grown)));
+    return hn::And(verdicts_.alive(), hn::Le(squared, Squared(grown)));
   }
 
   /// Two leaves that touch by the bound of their trees.
@@ -489,10 +421,11 @@ class CheckPass {
     const Node& a = placement_.node(index_a);
     const Node& b = placement_.node(index_b);
     if constexpr (kAround) {
-      touching = Within(squared, Grown(radius, motions_.Between(reach_, a.reach, b.reach)));
+      touching =
+          Within(squared, verdicts_.Grown(radius, motions_.Between(reach_, a.reach, b.reach)));
     }
     if (doubtful_ || (a.patch < 0 && b.patch < 0)) {
-      return Note(squared, radius, touching, doubtful_);
+      return verdicts_.Note(squared, radius, touching, doubtful_);
     }
     return a.patch >= 0 ? NotePatch(index_a, body_a, index_b, body_b, touching)
                         : NotePatch(index_b, body_b, index_a, body_a, touching);
@@ -511,12 +444,13 @@ class CheckPass {
         kAround ? motions_.Between(reach_, ReachOfPoints(node), ReachOfPoints(other)) : Zero();
     const PatchView patch = PatchOf(index);
     if (other.patch < 0) {
-      return NoteExact(touching, motion, patch.patch.padding, [&](int lane, float margin) {
-        float center_W[3], center[3];
-        placement_.Position(other_index, lane, center_W);
-        placement_.PosesOf(body_a).InLane(lane).InverseTimes(center_W, center);
-        return PatchWithin(patch, center, other.radius + margin);
-      });
+      return verdicts_.NoteExact(
+          touching, motion, patch.patch.padding, [&](int lane, float margin) {
+            float center_W[3], center[3];
+            placement_.Position(other_index, lane, center_W);
+            placement_.PosesOf(body_a).InLane(lane).InverseTimes(center_W, center);
+            return PatchWithin(patch, center, other.radius + margin);
+          });
     }
     const MovingPart part = PartOf(index, body_a);
     const MovingPart other_part = PartOf(other_index, hulls_.Other(body_a));
@@ -526,12 +460,12 @@ class CheckPass {
       // Hulls that are apart at q itself tell how near the patches are, well enough not to ask
       // their triangles.
       const M overlapping = NotApart(part, other_part, StandingStill(), touching);
-      hits_ = hn::Or(hits_, hn::AndNot(overlapping, touching));
+      verdicts_.Block(hn::AndNot(overlapping, touching));
       touching = overlapping;
       if (None(touching)) return false;
     }
     const PatchView other_patch = PatchOf(other_index);
-    return NoteExact(touching, motion, patch.patch.padding, [&](int lane, float margin) {
+    return verdicts_.NoteExact(touching, motion, patch.patch.padding, [&](int lane, float margin) {
       return PatchesMeet(patch, other_patch, hulls_.Relation(lane),
                          margin + other_patch.patch.padding);
     });
@@ -557,10 +491,10 @@ class CheckPass {
       const Node& node = placement_.node(child);
       const float radius = node.radius + small.radius;
       const V squared = SquaredNorm(placement_.Position(child) - p);
-      const M touching = hn::And(lanes, Within(squared, Grown(radius, motion)));
+      const M touching = hn::And(lanes, Within(squared, verdicts_.Grown(radius, motion)));
       if (None(touching)) continue;
       if (node.inner > 0 && small.inner > 0 && !doubtful_ &&
-          NoteInner(squared, node.inner + small.inner)) {
+          verdicts_.NoteInner(squared, node.inner + small.inner)) {
         return true;
       }
       if (node.num_children == 0 && small.num_children == 0) {
@@ -582,13 +516,7 @@ class CheckPass {
   Placement placement_;
   MotionBounds<kAround> motions_;
   HullPlanes hulls_;
-  M alive_;  ///< Lanes whose verdict is not certain yet.
-  // See BlockVerdict; where open tests are looked for, of the one at hand and of those before it.
-  M hits_;
-  M hits_before_;
-  M certain_;
-  M doubts_;
-  M doubts_before_;
+  Verdicts<kAround> verdicts_;
   // Of the test at hand.
   Reach reach_;
   bool doubtful_ = false;

@@ -25,9 +25,10 @@ void RunCheck(const SphereRobot& robot, const SphereWorld& world, SphereScratch:
     if (lanes == 0) continue;
     CheckPass<kAround> pass(robot, world, buffers, query, lane, MaskOf(lanes));
     pass.Run();
-    verdict->hits |= pass.hits() << lane;
-    verdict->certain |= pass.certain() << lane;
-    verdict->doubts |= pass.doubts() << lane;
+    const BlockVerdict part = pass.verdict();
+    verdict->hits |= part.hits << lane;
+    verdict->certain |= part.certain << lane;
+    verdict->doubts |= part.doubts << lane;
     if (query.stop_at_first && verdict->certain != 0) return;
   }
 }
