@@ -180,8 +180,11 @@ Table ChangeTable(const ComparedSessions& compared) {
         }
       }
       if (before == nullptr || !by_contestant.contains(after.name)) continue;
-      const Outcomes& old_outcomes = by_contestant.at(before->name);
-      const Outcomes& new_outcomes = by_contestant.at(after.name);
+      std::map<std::string, Outcomes> common;
+      for (const auto* one : {before, &after}) common[one->name] = by_contestant.at(one->name);
+      common = OnCommonProblems(std::move(common));
+      const Outcomes& old_outcomes = common.at(before->name);
+      const Outcomes& new_outcomes = common.at(after.name);
       const PairedComparison result = Compare(new_outcomes, old_outcomes);
       if (result.num_problems == 0) continue;
       table.rows.push_back(

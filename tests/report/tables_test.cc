@@ -484,6 +484,34 @@ TEST_F(ReportTest, ChangesBetweenSessionsAreToldWithTheirUncertainty) {
   EXPECT_TRUE(ChangeTable(compared_).rows.empty());
 }
 
+TEST_F(ReportTest, ChangesAreOfTheProblemsThatBothSessionsHave) {
+  // The one has the problems 1 to 9, of which it fails at the first two, the other 3 to 12, of
+  // which it fails at 9 to 12: both solve 3 to 8.
+  const TemporaryFolder folder;
+  std::vector<StoredSession> sessions;
+  for (const int first : {1, 3}) {
+    std::vector<MadeRun> runs;
+    for (int problem = first; problem <= (first == 1 ? 9 : 12); ++problem) {
+      const bool fails = first == 1 ? problem < 3 : problem >= 9;
+      runs.push_back({.contestant = "A",
+                      .problem = problem,
+                      .status = fails ? PlanStatus::kTimedOut : PlanStatus::kSolved});
+    }
+    SessionMessage session = ExampleSession();
+    session.start_utime = first * 60'000'000;
+    const std::string name = fmt::format("from{}", first);
+    WriteSession(folder / name, runs, session);
+    sessions.push_back(ReadSessions(folder / name).sessions.front());
+  }
+  const Table table = ChangeTable(ComparedSessions(std::move(sessions)));
+  ASSERT_EQ(table.rows.size(), 1u);
+  const auto share = [](int confirmed) {
+    return FormatCell(Percent(confirmed / 7.0, WilsonInterval(confirmed, 7)), Style::kShare);
+  };
+  const Row row = Texts(table, 0);
+  EXPECT_EQ(Row(row.begin() + 5, row.begin() + 9), (Row{"7", share(7), share(6), "6"}));
+}
+
 TEST_F(ReportTest, ChangesOfAContestantStandTogetherInTheOrderOfItsSessions) {
   const TemporaryFolder folder;
   std::vector<StoredSession> sessions;
