@@ -94,12 +94,13 @@ std::string MedianTable(const SessionResults& results, const std::string& title,
   for (const SetResults& set : results.sets()) {
     table.AddHeading(set.name);
     for (const ContestantResults& one : set.contestants) {
+      const std::vector<const RunRow*> runs = ConfirmedRuns(one.runs);
       std::vector<std::string> row = {one.label()};
       for (std::size_t i = 0; i < columns.size(); ++i) {
         if (columns[i].is_quality != is_quality) continue;
         ValuesByProblem values;
-        for (const RunRow* run : one.runs) {
-          if (!run->confirmed() || std::isnan(run->effort[i])) continue;
+        for (const RunRow* run : runs) {
+          if (std::isnan(run->effort[i])) continue;
           values[run->problem_index].push_back(run->effort[i]);
         }
         row.push_back(columns[i].format(SummarizeByProblem(values).median));
@@ -141,12 +142,14 @@ std::vector<double> EffortValues(const RunRecordMessage& record) {
 }
 
 std::string EffortTables(const SessionResults& results) {
-  return MedianTable(results, "Effort of confirmed runs, medians over problems", false,
-                     "A problem counts once, by the median of its runs; medians over different "
-                     "problems do not compare. bus: the driver's round trip less the planner's own "
-                     "time. checking: share of collision checking in the search. edges, "
-                     "configurations: how many the planner checked, simplification aside. -: not "
-                     "told.\n\n") +
+  return MedianTable(
+             results, "Effort of confirmed runs, medians over problems", false,
+             "A problem counts once, by the median of its runs; medians over different "
+             "problems do not compare. A run confirmed in both directions counts by the "
+             "attempt from start to goal. bus: the driver's round trip less the planner's own "
+             "time. checking: share of collision checking in the search. edges, "
+             "configurations: how many the planner checked, simplification aside. -: not "
+             "told.\n\n") +
          MedianTable(results, "Path quality of confirmed runs, medians over problems", true,
                      "length: joint space, L2, rad and m, of the raw path; simplified: of the "
                      "simplified one, as each planner simplifies (alike those of planbench and "
@@ -171,8 +174,7 @@ std::string MeshTable(const SessionResults& results, const std::string& referee_
     for (const ContestantResults& one : set.contestants) {
       MeshVerdicts raw;
       MeshVerdicts simplified;
-      for (const RunRow* run : one.runs) {
-        if (!run->confirmed()) continue;
+      for (const RunRow* run : ConfirmedRuns(one.runs)) {
         raw.Add(run->mesh_valid, *run->mesh_reason);
         simplified.Add(run->mesh_valid_simple, "");
       }

@@ -287,7 +287,8 @@ std::string Remarks(const SessionResults& results) {
       for (const RunRow* run : one.runs) {
         odd_times[name].push_back(run->odd_times_s);
         answer_times[name].push_back(run->answer_times);
-        if (!run->confirmed()) continue;
+      }
+      for (const RunRow* run : ConfirmedRuns(one.runs)) {
         simplified[name].push_back(run->simplified_valid);
       }
     }

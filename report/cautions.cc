@@ -193,8 +193,10 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
       if (auto line = Lookup(*lines, contestant.name)) cautions.push_back(*std::move(line));
     }
     std::vector<std::optional<bool>> simplified;
-    for (const StoredRun* run : contestant.runs) {
-      if (run->confirmed()) simplified.push_back(run->simplified_valid);
+    for (const auto& set : compared.outcomes()) {
+      for (const StoredRun* run : ConfirmedRuns(contestant, set.first)) {
+        simplified.push_back(run->simplified_valid);
+      }
     }
     if (std::string note = RejectedSimplifiedNote(contestant.name, simplified); !note.empty()) {
       cautions.push_back(std::move(note));

@@ -255,8 +255,9 @@ Table QualityTable(const ComparedSessions& compared) {
   Table table{"quality",
               "Path quality",
               "Measures are the referee's, of confirmed runs, tip travel and clearance at its "
-              "samples of the path; a problem counts once, by the median of its runs. Ratio: to "
-              "the reference, which is the contestant of highest rank that has such values on the "
+              "samples of the path; a problem counts once, by the median of its runs, one that was "
+              "confirmed in both directions by its path from start to goal. Ratio: to the "
+              "reference, which is the contestant of highest rank that has such values on the "
               "set; geometric mean over the problems that both have values of (both), with "
               "Student's 95 % interval. Problems at which either's is 0, as the smoothness of a "
               "straight path, have no ratio and are none of them. Medians over different "
@@ -317,8 +318,9 @@ Table PhaseTable(const ComparedSessions& compared) {
   Table table{
       "phases",
       "Where the time goes, ms",
-      "Means over confirmed attempts; the first four are a partition of the time to the end "
-      "of the search, of the attempts of which the planner tells it. Simplification comes after "
+      "Means over confirmed runs, of one confirmed in both directions the attempt from start to "
+      "goal; the first four are a partition of the time to the end of the search, of the attempts "
+      "of which the planner tells it. Simplification comes after "
       "planning and is no part of any planning time; its mean is over the attempts that had any.",
       {{"set", "set"},
        {"contestant", "contestant"},
@@ -378,9 +380,9 @@ Table MeshTable(const ComparedSessions& compared) {
   Table table{
       "meshes",
       "What was claimed, confirmed, and true of the robot's meshes",
-      "Attempts. Claimed: the planner says that it found a path. Confirmed: the referee agrees, "
-      "with the "
-      "planners' own collision model. Valid: so does the exact geometry of the meshes, of the "
+      "Runs, of which both directions count as one. Claimed: the planner says that it found a "
+      "path. Confirmed: the referee agrees, with the planners' own collision model. Valid: so does "
+      "the exact geometry of the meshes, of the "
       "confirmed paths that it judged; the share is the mean over the problems with such paths of "
       "the share of them valid, with Wilson's 95 % interval for as many cases as there are "
       "problems. Depth: median over the raw paths that the meshes do not allow, where they first "
@@ -402,14 +404,13 @@ Table MeshTable(const ComparedSessions& compared) {
        {"commonest_contact", "commonest contact"}},
       {}};
   ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
-                        const Outcomes&) {
+                        const Outcomes& outcomes) {
     int judged = 0, valid = 0, simple_judged = 0, simple_valid = 0;
     std::map<int, std::vector<bool>> valid_by_problem;  // of those judged
     std::map<std::string, int> contacts;
     std::vector<double> depths_m;
     std::vector<double> times_s;
-    const std::vector<const StoredRun*> confirmed = ConfirmedRuns(contestant, set);
-    for (const StoredRun* run : confirmed) {
+    for (const StoredRun* run : ConfirmedRuns(contestant, set)) {
       simple_judged += run->mesh_valid_simple.has_value();
       simple_valid += run->mesh_valid_simple.value_or(false);
       if (!run->mesh_valid) continue;
@@ -427,12 +428,9 @@ Table MeshTable(const ComparedSessions& compared) {
                        static_cast<double>(of_problem.size());
     }
     const int num_problems = static_cast<int>(valid_by_problem.size());
-    const auto claimed = std::count_if(
-        contestant.runs.begin(), contestant.runs.end(),
-        [&](const StoredRun* run) { return run->claimed && run->problem_set == set; });
+    const SuccessSummary success = SummarizeSuccess(outcomes);
     table.rows.push_back(
-        {set, contestant.name, static_cast<int>(claimed), static_cast<int>(confirmed.size()),
-         judged, valid,
+        {set, contestant.name, success.claimed, success.confirmed, judged, valid,
          Percent(sum_of_shares / num_problems, WilsonInterval(sum_of_shares, num_problems)),
          simple_judged, simple_valid,
          depths_m.empty() ? Cell() : Cell(1e3 * Summarize(depths_m).median),

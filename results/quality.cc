@@ -40,11 +40,11 @@ std::optional<RatioEstimate> CompareByProblem(const ValuesByProblem& first,
 
 std::vector<const StoredRun*> ConfirmedRuns(const ComparedContestant& contestant,
                                             const std::string& problem_set) {
-  std::vector<const StoredRun*> runs;
+  std::vector<const StoredRun*> attempts;
   for (const StoredRun* run : contestant.runs) {
-    if (run->confirmed() && run->problem_set == problem_set) runs.push_back(run);
+    if (run->problem_set == problem_set) attempts.push_back(run);
   }
-  return runs;
+  return ConfirmedRuns(attempts);
 }
 
 ValuesByProblem MeasuredByProblem(const ComparedContestant& contestant,

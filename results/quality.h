@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planning/plan_result.h"
@@ -23,7 +27,24 @@ Summary SummarizeByProblem(const ValuesByProblem& values);
 std::optional<RatioEstimate> CompareByProblem(const ValuesByProblem& first,
                                               const ValuesByProblem& second);
 
-/// Attempts of a contestant on a set whose path the referee confirmed.
+/// Of attempts of one contestant on one set those whose path counts: confirmed, and of a trial's
+/// two directions the one from start to goal if that is (FoldAttempts).
+template <typename Run>
+std::vector<const Run*> ConfirmedRuns(const std::vector<const Run*>& attempts) {
+  std::set<std::pair<int, int>> forward;  // problem and trial
+  for (const Run* run : attempts) {
+    if (run->confirmed() && run->direction == Direction::kForward) {
+      forward.emplace(run->problem_index, run->trial);
+    }
+  }
+  std::vector<const Run*> counted;
+  std::copy_if(attempts.begin(), attempts.end(), std::back_inserter(counted), [&](const Run* run) {
+    return run->confirmed() && (run->direction == Direction::kForward ||
+                                !forward.contains({run->problem_index, run->trial}));
+  });
+  return counted;
+}
+/// Those of a contestant's attempts on a set.
 std::vector<const StoredRun*> ConfirmedRuns(const ComparedContestant& contestant,
                                             const std::string& problem_set);
 

@@ -282,7 +282,7 @@ const report = (() => {
     const key = element("ul", {class: "legend"});
     charts.PHASES.forEach((phase, i) => key.append(element("li", {}, swatch(() => theme.phase(i)), " " + phase)));
     section("phases", "Where the time goes",
-      note("Means over confirmed attempts, as shares of the time to the end of the search, which stands on the right."), key,
+      note("Means over confirmed runs, as shares of the time to the end of the search, which stands on the right."), key,
       figuresOfSets("phases"),
       tableBlock("phases", false));
   }

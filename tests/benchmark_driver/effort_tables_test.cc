@@ -66,6 +66,26 @@ TEST(EffortTablesTest, AProblemCountsOnceHoweverManyTrialsItHas) {
   EXPECT_THAT(Full(records), HasSubstr("medians over different problems do not"));
 }
 
+TEST(EffortTablesTest, OfBothDirectionsOnlyThePathFromStartToGoalCounts) {
+  std::vector<RunRecordMessage> records = {AttemptOf(PlanStatus::kSolved, 1),
+                                           Backward(PlanStatus::kSolved, 2)};
+  records[0].result.result.counters = {{"edges_checked", 10}};
+  records[0].path_check.verdict = Valid({{"path_length", 2}});
+  records[0].path_check.mesh_verdict = records[0].path_check.verdict;
+  records[1].result.result.counters = {{"edges_checked", 90}};
+  records[1].path_check.verdict = Valid({{"path_length", 8}});
+  records[1].path_check.mesh_verdict = records[1].simplified_check.verdict = PathVerdict();
+  const std::string text = Full(records);
+  for (const char* title : {kEffort, kQuality}) {
+    EXPECT_EQ(Row(text, title, "ARA*"), Row(Full({records[0]}), title, "ARA*"));
+  }
+  EXPECT_EQ(Row(text, kMeshes, "box ARA*"), "1 1 0 0");
+  EXPECT_THAT(text, Not(HasSubstr("the referee rejected")));
+  // The other where there is none.
+  records[0].status = PlanStatus::kInvalidPath;
+  EXPECT_THAT(Row(Full(records), kEffort, "ARA*"), HasSubstr(" 90 "));
+}
+
 TEST(EffortTablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
   // Of problem i the m-th measure is m i, half as much on the simplified path.
   std::vector<RunRecordMessage> records;

@@ -147,6 +147,30 @@ TEST_F(ReportTest, DirectionsHaveTimesOfTheirOwn) {
             (Row{"shelf", "A", "backward", "3", "3", "2", FormatNumber(1000 * (3 + 5.5) / 2)}));
 }
 
+TEST_F(ReportTest, OfBothDirectionsOnlyThePathFromStartToGoalCounts) {
+  // The backward search finds a longer path, in more time, that the meshes do not allow and of
+  // which the referee rejects the simplified one.
+  const MadeRun forward = {.contestant = "A", .length = 2, .mesh_valid = true};
+  MadeRun backward = forward;
+  backward.direction = Direction::kBackward;
+  backward.time_s = 3;
+  backward.length = 8;
+  backward.simplified_valid = false;
+  backward.mesh_valid = false;
+  const ComparedSessions compared = Read({forward, backward});
+  const Row raw = Texts(QualityTable(compared), 0);
+  EXPECT_EQ(Row(raw.begin() + 5, raw.begin() + 9), (Row{"1", "2.00", "2.00", "2.00"}));
+  EXPECT_EQ(Texts(QualityTable(compared), 1).back(), "0") << "rejected";
+  EXPECT_EQ(Texts(PhaseTable(compared), 0)[2], "1");
+  EXPECT_EQ(Texts(PhaseTable(compared), 0)[4], "500");
+  const Row meshes = Texts(MeshTable(compared), 0);
+  EXPECT_EQ(Row(meshes.begin() + 2, meshes.begin() + 6), (Row{"1", "1", "1", "1"}));
+  EXPECT_THAT(Cautions(compared), testing::Not(testing::Contains(testing::HasSubstr("rejected"))));
+  const Json figures = FigureData(compared, {}, {})["sets"][0];
+  EXPECT_EQ(figures["quality"][0]["raw"][0]["median"], 2);
+  EXPECT_EQ(figures["phases"][0]["total"], 1000);
+}
+
 TEST_F(ReportTest, Phases) {
   const Table table = PhaseTable(compared_);
   EXPECT_EQ(Texts(table, 2)[2], "24");

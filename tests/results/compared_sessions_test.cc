@@ -387,6 +387,28 @@ TEST(QualityTest, MeasuresAreOfConfirmedRuns) {
   EXPECT_EQ(ConfirmedRuns(one, "shelf").size(), 3u);
 }
 
+TEST(QualityTest, OfBothDirectionsThePathFromStartToGoalCounts) {
+  const auto run = [](int problem, int trial, Direction direction, double length,
+                      PlanStatus status = PlanStatus::kSolved) {
+    StoredRun made = MakeRun(0, problem, 1, status);
+    made.trial = trial;
+    made.direction = direction;
+    made.measures["path_length"] = length;
+    return made;
+  };
+  using enum Direction;
+  StoredRun elsewhere = run(2, 1, kForward, 9);
+  elsewhere.problem_set = "desk";
+  const ComparedSessions compared({Session(
+      "one", {{"A", ""}},
+      {run(1, 1, kBackward, 100), run(1, 1, kForward, 3),
+       run(1, 2, kForward, 50, PlanStatus::kInvalidPath), run(1, 2, kBackward, 5), elsewhere,
+       run(2, 1, kForward, 0, PlanStatus::kTimedOut), run(2, 1, kBackward, 7)})});
+  const ComparedContestant& one = compared.contestants()[0];
+  EXPECT_EQ(MeasuredByProblem(one, "shelf", "path_length", true),
+            (ValuesByProblem{{1, {3, 5}}, {2, {7}}}));
+}
+
 TEST(QualityTest, PhasesAreMeans) {
   StoredRun a, b;
   a.phases = {1, 2, 3, 4, 5};
