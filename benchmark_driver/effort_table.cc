@@ -161,12 +161,12 @@ std::string EffortTables(const SessionResults& results) {
 
 std::string MeshTable(const SessionResults& results, const std::string& referee_misfits) {
   TextTable table("Paths judged with the robot's meshes",
-                  {"set", "contestant", "confirmed", "mesh-valid", "simplified", "mesh-valid"}, 2);
+                  {"set", "contestant", "judged", "mesh-valid", "simplified", "mesh-valid"}, 2);
   MeshVerdicts raw_of_all;
   MeshVerdicts simplified_of_all;
   std::string notes =
-      "Runs confirmed with the planners' own collision model, by what the mesh robot says of "
-      "them.\n";
+      "Runs confirmed with the planners' own collision model, and simplified paths of such, that "
+      "the mesh robot judged.\n";
   if (!referee_misfits.empty()) {
     notes += fmt::format("The mesh robot differs from the planners': {}.\n", referee_misfits);
   }

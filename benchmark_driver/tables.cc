@@ -94,7 +94,8 @@ std::string SuccessTable(const SessionResults& results) {
   std::string notes =
       "runs: problems x trials; both directions of one are one. claimed: the planner says that it "
       "found a path. confirmed: the referee agrees; all that follows counts these. %: share "
-      "confirmed, with Wilson's interval for as many cases as there are problems. fwd, bwd: found "
+      "confirmed, mean over the problems of that of their trials, with Wilson's interval for as "
+      "many cases as there are problems. fwd, bwd: found "
       "from start to goal, or else from goal to start. failed: out of time, memory or search "
       "space. blocked: start or goal invalid. Other runs were rejected by the referee, got no "
       "answer, or were refused or cancelled.\n";

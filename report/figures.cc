@@ -79,7 +79,7 @@ Json SuccessJson(const Outcomes& outcomes) {
           {"claimed", s.claimed},
           {"confirmed", s.confirmed},
           {"runs", s.num_runs},
-          {"claimed_share", Rounded(static_cast<double>(s.claimed) / s.num_runs)}};
+          {"claimed_share", Rounded(s.claimed_share)}};
 }
 
 Json TimesJson(const Outcomes& outcomes) {

@@ -216,8 +216,9 @@ Table ConditionTable(const ComparedSessions& compared) {
               "Conditions of the measurement",
               "Spread: longest over shortest time among the trials of a problem, its median over "
               "the problems whose trials were all confirmed: the luck of the draw and the noise of "
-              "the machine. Noise: the same of what a checked configuration cost on average, in "
-              "which luck counts little. Both need several trials of a problem, which a "
+              "the machine. Noise: likewise of what a checked configuration cost on average, in "
+              "which luck counts little, among the confirmed attempts at a problem in one "
+              "direction. Both need several trials of a problem, which a "
               "contestant whose path does not depend on the seed has none of. Load before: of the "
               "machine over the minute before a run, the session's own included; median. Waited: "
               "what threads of the planner waited for a processor, summed over them, and what a "

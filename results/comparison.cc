@@ -48,17 +48,20 @@ SuccessSummary SummarizeSuccess(const Outcomes& outcomes) {
   SuccessSummary summary;
   summary.num_problems = static_cast<int>(outcomes.by_problem.size());
   summary.num_runs = outcomes.num_runs();
-  double sum_of_shares = 0;
+  double sum_of_shares = 0, sum_claimed = 0;
   for (const auto& [problem, trials] : outcomes.by_problem) {
-    int confirmed = 0;
+    int claimed = 0, confirmed = 0;
     for (const Outcome& trial : trials) {
-      summary.claimed += trial.claimed;
+      claimed += trial.claimed;
       ++summary.kinds[trial.kind];
       confirmed += trial.confirmed();
     }
+    summary.claimed += claimed;
     summary.confirmed += confirmed;
+    sum_claimed += static_cast<double>(claimed) / static_cast<double>(trials.size());
     sum_of_shares += static_cast<double>(confirmed) / static_cast<double>(trials.size());
   }
+  summary.claimed_share = sum_claimed / summary.num_problems;
   summary.share = sum_of_shares / summary.num_problems;
   summary.interval = WilsonInterval(sum_of_shares, summary.num_problems);
   return summary;

@@ -19,7 +19,8 @@ struct SuccessSummary {
   int claimed = 0;    ///< Runs in which the planner says that it found a path.
   int confirmed = 0;  ///< Runs whose path the referee confirmed.
   std::map<Outcome::Kind, int> kinds;
-  double share = 0;  ///< Confirmed, mean over the problems of the share of their trials.
+  double share = 0;          ///< Confirmed, mean over the problems of the share of their trials.
+  double claimed_share = 0;  ///< Claimed, likewise.
   /// Wilson's, for as many cases as there are problems: trials of one problem are not independent.
   Interval interval;
 };

@@ -172,7 +172,7 @@ const report = (() => {
   function success() {
     section("success", "Success",
       note("Dot: share of the problems with a path that the referee confirmed; line: its 95 % interval. A hollow diamond is " +
-           "the share of runs in which the planner claimed a path, where that is more."),
+           "the same of paths that the planner claimed, where that is more."),
       figuresOfSets("success"),
       tableBlock("success", true));
   }
@@ -268,8 +268,8 @@ const report = (() => {
     }
     function update() {
       meaning.textContent = `${data.measures[kind].name.replace(/_/g, " ")}: ${data.measures[kind].meaning}. Filled: the path ` +
-        "as planned; hollow: after the simplification that all share. Median and quartiles over the problems that each " +
-        "solved, of medians over its runs: the problems are not the same for all; the table has ratios over those that two have.";
+        "as planned; hollow: simplified, as each planner does it. Median and quartiles over the problems of which each " +
+        "has such a path measured, of medians over its runs: the problems are not the same for all; the table has ratios over those that two have.";
       shown.forEach(chart => { if (chart.view) pictures.render(chart); });
     }
     made.append(element("div", {class: "controls"}, select("measure", kinds.map(i => data.measures[i].name.replace(/_/g, " ")), 0,

@@ -182,6 +182,9 @@ TEST(EffortTablesTest, MeshVerdictsAreShownIfThereAreAny) {
   // A path that the referee rejects on the planners' own model counts for nothing.
   records.push_back(OfProblem(4, AttemptOf(PlanStatus::kInvalidPath, 1)));
   records.back().path_check.mesh_verdict = Valid({});
+  records.push_back(OfProblem(5, AttemptOf(PlanStatus::kSolved, 1)));  // not judged
+  EXPECT_EQ(Table(Brief(records), kMeshes).at(0),
+            "set contestant judged mesh-valid simplified mesh-valid");
   EXPECT_EQ(Row(Brief(records), kMeshes, "box ARA*"), "3 1 1 1");
   EXPECT_THAT(Brief(records),
               HasSubstr("box, ARA*: 2 not mesh-valid, mostly: collision on segment 2 "

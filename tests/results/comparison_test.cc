@@ -50,6 +50,7 @@ TEST(SummarizeSuccessTest, CountsRunsAndTakesTheShareOverProblems) {
   EXPECT_EQ(s.kinds.at(Kind::kFailure), 2);
   EXPECT_EQ(s.kinds.at(Kind::kUnsolvable), 1);
   EXPECT_DOUBLE_EQ(s.share, (1 + 0.5 + 0 + 0) / 4);
+  EXPECT_DOUBLE_EQ(s.claimed_share, (1 + 1 + 0 + 0) / 4.0) << "beside it in a figure, and so alike";
   // Wilson's interval solves |share - p| = z sqrt(p (1 - p) / n).
   for (const double p : {s.interval.lower, s.interval.upper}) {
     EXPECT_NEAR(std::abs(s.share - p), 1.959963984540054 * std::sqrt(p * (1 - p) / 4), 1e-12);
