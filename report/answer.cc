@@ -170,8 +170,9 @@ std::string HowSure(const ComparedSessions& compared,
   const std::string called = Called(compared, leader);
   std::string text;
   if (of_leader.size() == 1 && !untested.empty()) {
-    text = fmt::format("Too few problems to test whether {} is faster than {}: {}, {} would do",
-                       called, untested.front(), of_leader.front()->result.num_problems, fewest);
+    text = fmt::format("With {} it cannot be tested whether {} is faster than {}: {} would do",
+                       Count(of_leader.front()->result.num_problems, "problem"), called,
+                       untested.front(), fewest);
   } else if (of_leader.size() == 1) {
     text = fmt::format("Problem by problem {} {} {} beyond chance (signed-rank test, 5 % level)",
                        called, open.empty() ? "is faster than" : "is not shown to be faster than",
@@ -224,8 +225,7 @@ std::string Rejections(const ComparedSessions& compared) {
   if (claimed == 0) return "no path was claimed to the referee";
   const int judged = claimed - late;
   if (judged == 0) return Count(late, "path") + " came, after the time limit";
-  const char* verb = rejected == 0 ? "confirmed" : "rejected";
-  std::string text = fmt::format("the referee {} ", verb);
+  std::string text = rejected == 0 ? "the referee confirmed " : "the referee rejected ";
   if (judged == 1) {
     text += late == 0 ? "the one path claimed" : "the one path claimed in time";
   } else if (rejected == 0) {
