@@ -8,9 +8,6 @@
 
 namespace planbench {
 
-/// What stands for all sets together where there are several.
-inline constexpr char kAllSets[] = "all sets";
-
 /// One contestant against another on one set, or on all.
 struct ComparedPair {
   std::string set;

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "report/compared_pairs.h"
 #include "results/training.h"
 
 namespace planbench {

@@ -85,8 +85,15 @@ std::vector<std::string> TellSetsApart(const std::vector<std::string>& session_n
         found->second.merge(scenes);
         continue;
       }
-      names[set] = versions.empty() ? set : fmt::format("{} ({})", set, session_names[s]);
-      if (!versions.empty()) others.push_back(names[set]);
+      const bool is_free = versions.empty() && set != kAllSets;
+      names[set] = is_free ? set : fmt::format("{} ({})", set, session_names[s]);
+      if (!versions.empty()) {
+        others.push_back(names[set]);
+      } else if (!is_free) {
+        (*sessions)[s].warnings.push_back(
+            fmt::format("its set '{}' stands as '{}', since all sets together are called so.", set,
+                        names[set]));
+      }
       versions.emplace_back(names[set], std::move(scenes));
     }
     for (StoredRun& run : (*sessions)[s].runs) run.problem_set = names.at(run.problem_set);

@@ -35,8 +35,12 @@ RankKey RankKeyOf(const Outcomes& outcomes);
 /// A run as the comparison knows it.
 Attempt AttemptOf(const StoredRun& run, const std::string& contestant);
 
+/// What stands for all sets together where there are several: no set is called so.
+inline constexpr char kAllSets[] = "all sets";
+
 /// Sessions side by side. Problems of one set and number are one problem, unless the sessions tell
-/// of different scenes.
+/// of different scenes. A set that is called kAllSets has its session's name behind its own, which
+/// a warning of that session says.
 class ComparedSessions {
  public:
   explicit ComparedSessions(std::vector<StoredSession> sessions);

@@ -225,6 +225,21 @@ TEST(ComparedSessionsTest, SetsOfOneNameWithOtherScenesAreTwo) {
   EXPECT_EQ(compared.outcomes().at("shelf (two)").size(), 2u);
 }
 
+TEST(ComparedSessionsTest, NoSetIsCalledAsAllTogether) {
+  std::vector<StoredRun> runs = {MakeRun(0, 1, 1), MakeRun(0, 1, 2)};
+  runs[1].problem_set = kAllSets;
+  const ComparedSessions compared(
+      {Session("one", {{"A", ""}}, runs), Session("two", {{"B", ""}}, runs)});
+  ASSERT_EQ(compared.outcomes().size(), 2u);
+  EXPECT_EQ(compared.outcomes().begin()->first, "all sets (one)");
+  EXPECT_EQ(compared.outcomes().begin()->second.size(), 2u) << "the same set in both sessions";
+  EXPECT_TRUE(compared.other_sets().empty());
+  EXPECT_EQ(
+      compared.sessions()[0].warnings,
+      std::vector<std::string>{"its set 'all sets' stands as 'all sets (one)', since all sets "
+                               "together are called so."});
+}
+
 TEST(ComparedSessionsTest, EqualNamesAreToldApartByTheirSessions) {
   const ComparedSessions compared(
       {Session("one", {{"A", ""}, {"B", ""}}, {MakeRun(0, 1, 1), MakeRun(1, 1, 2)}),
