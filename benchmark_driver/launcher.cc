@@ -18,6 +18,7 @@
 #include "common/sibling_program.h"
 #include "messaging/channels.h"
 #include "messaging/node_registry.h"
+#include "results/shell_quoted.h"
 
 namespace planbench {
 namespace {
@@ -84,14 +85,17 @@ std::string Named(const NodeStatusMessage& node) {
 }  // namespace
 
 void RequirePrograms(const std::vector<LineUpEntry>& line_up,
-                     const std::filesystem::path& program_folder) {
+                     const std::filesystem::path& program_folder, const std::string& line_up_then) {
   const std::set<std::string> known = PlannersIn(program_folder);
   for (const LineUpEntry& entry : line_up) {
     if (!entry.contestant.command.empty() || known.contains(entry.program)) continue;
-    throw InputError(
-        fmt::format("unknown planner '{0}'; known are: {1}; others are started by "
-                    "--planner-command {2}=COMMAND",
-                    entry.program, fmt::join(known, ", "), entry.contestant.planner));
+    const std::string advice =
+        line_up_then.empty()
+            ? fmt::format("others are started by --planner-command {}=COMMAND",
+                          entry.contestant.planner)
+            : fmt::format("the session was made with --lineup {}", ShellQuoted(line_up_then));
+    throw InputError(fmt::format("unknown planner '{}'; known are: {}; {}", entry.program,
+                                 fmt::join(known, ", "), advice));
   }
 }
 

@@ -18,9 +18,11 @@ namespace planbench {
 inline constexpr char kSceneServer[] = "scene_server";
 
 /// Checks that every contestant has a program: planner_PROGRAM in `program_folder`, or a command.
-/// Throws InputError.
+/// Throws InputError. `line_up_then`: the file of the line-up with which what is made again was
+/// made, if that is not given now.
 void RequirePrograms(const std::vector<LineUpEntry>& line_up,
-                     const std::filesystem::path& program_folder);
+                     const std::filesystem::path& program_folder,
+                     const std::string& line_up_then = "");
 
 /// Throws InputError if a planbench process is live on the bus: what is launched wants it for
 /// itself.

@@ -101,7 +101,10 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   std::string url = lcm_url;
   std::filesystem::path folder;
   if (options.launch) {
-    RequirePrograms(line_up, ProgramFolder());
+    const bool tells_line_up = !options.line_up.file && !recorded.sessions.empty();
+    RequirePrograms(
+        line_up, ProgramFolder(),
+        tells_line_up ? Lookup(recorded.sessions.back().settings, "lineup").value_or("") : "");
     if (!lcm_url_given) url = LcmUrl(FreeUdpPort());
     folder = options.out.value_or(std::filesystem::path("sessions") / run_id);
     folder = std::filesystem::absolute(folder).lexically_normal();

@@ -25,6 +25,8 @@ TEST(RequireProgramsTest, EveryContestantNeedsAProgramOrACommand) {
   line_up[2].program = "prm";
   ExpectInputError([&] { RequirePrograms(line_up, programs.path()); },
                    {"'prm'", "ara, rrtc", "--planner-command mine="});
+  ExpectInputError([&] { RequirePrograms(line_up, programs.path(), "/my line-up.yaml"); },
+                   {"'prm'", "the session was made with --lineup '/my line-up.yaml'"});
 }
 
 TEST(ProcessStopperTest, OfPlannersThatAreLiveThoseOfACommandAreNamedOnceHoweverASessionEnds) {
