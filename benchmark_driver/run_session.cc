@@ -5,10 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -31,6 +28,7 @@
 #include "common/exit_codes.h"
 #include "common/sibling_program.h"
 #include "common/standard_output.h"
+#include "common/write_file.h"
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
 #include "messaging/program.h"
@@ -125,10 +123,11 @@ void KeepOff(const std::vector<int>& pinned) {
 }
 
 void WriteTables(const std::filesystem::path& file, const std::string& tables) {
-  std::ofstream stream(file);
-  stream << tables;
-  stream.close();
-  if (!stream) spdlog::error("cannot write {}: {}", file.string(), std::strerror(errno));
+  try {
+    WriteFile(file, tables);
+  } catch (const InputError& error) {
+    spdlog::error("{}", error.what());
+  }
 }
 
 }  // namespace

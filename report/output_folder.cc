@@ -4,32 +4,48 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/scratch_folder.h"
 
 namespace planbench {
 namespace {
 
 namespace fs = std::filesystem;
 
-}  // namespace
-
-void PrepareFolder(const fs::path& folder,
-                   const std::function<bool(const std::string& name)>& is_of_report) {
+/// Of the files of a folder those whose names are such.
+std::vector<fs::path> FilesIn(const fs::path& folder,
+                              const std::function<bool(const std::string& name)>& is_such) {
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
-  std::vector<fs::path> earlier;
+  std::vector<fs::path> files;
   fs::directory_iterator entries(folder, error);
   for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
     const fs::path& file = entries->path();
     std::error_code unknown;
-    if (is_of_report(file.filename().string()) && !fs::is_directory(file, unknown)) {
-      earlier.push_back(file);
+    if (is_such(file.filename().string()) && !fs::is_directory(file, unknown)) {
+      files.push_back(file);
     }
   }
   if (error) throw InputError("cannot read the folder " + folder.string() + ": " + error.message());
-  for (const fs::path& file : earlier) {
+  return files;
+}
+
+}  // namespace
+
+void ReplaceFiles(const fs::path& folder,
+                  const std::function<bool(const std::string& name)>& is_of_report,
+                  const std::function<void(const fs::path& new_folder)>& write) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
+  const ScratchFolder unfinished(folder / ".unfinished-");
+  write(unfinished.path());
+  for (const fs::path& file : FilesIn(folder, is_of_report)) {
     fs::remove(file, error);
     if (error) throw InputError("cannot remove " + file.string() + ": " + error.message());
+  }
+  for (const fs::path& file : FilesIn(unfinished.path(), [](const auto&) { return true; })) {
+    const fs::path place = folder / file.filename();
+    fs::rename(file, place, error);
+    if (error) throw InputError("cannot write " + place.string() + ": " + error.message());
   }
 }
 

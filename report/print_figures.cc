@@ -68,18 +68,21 @@ void PrintFigures(const Json& data, const fs::path& folder) {
   Run(fmt::format("node {} {} {}", ShellQuoted(script.string()), ShellQuoted(numbers.string()),
                   ShellQuoted(scratch.path().string())));
   const std::vector<std::string> kinds = Json::parse(ReadText(scratch.path() / "kinds.json"));
-  PrepareFolder(folder, [&](const std::string& name) { return IsFigure(kinds, name); });
   const bool has_pdf = IsInstalled("rsvg-convert");
-  for (const auto& entry : fs::directory_iterator(scratch.path())) {
-    if (entry.path().extension() != ".svg") continue;
-    const fs::path svg = folder / entry.path().filename();
-    WriteFile(svg, ReadText(entry.path()));
-    if (!has_pdf) continue;
-    fs::path pdf = svg;
-    pdf.replace_extension(".pdf");
-    Run(fmt::format("rsvg-convert -f pdf -o {} {}", ShellQuoted(pdf.string()),
-                    ShellQuoted(svg.string())));
-  }
+  const auto write = [&](const fs::path& new_folder) {
+    for (const auto& entry : fs::directory_iterator(scratch.path())) {
+      if (entry.path().extension() != ".svg") continue;
+      const fs::path svg = new_folder / entry.path().filename();
+      WriteFile(svg, ReadText(entry.path()));
+      if (!has_pdf) continue;
+      fs::path pdf = svg;
+      pdf.replace_extension(".pdf");
+      Run(fmt::format("rsvg-convert -f pdf -o {} {}", ShellQuoted(pdf.string()),
+                      ShellQuoted(svg.string())));
+    }
+  };
+  ReplaceFiles(
+      folder, [&](const std::string& name) { return IsFigure(kinds, name); }, write);
   if (!has_pdf) {
     std::cerr << "report: no PDF of the figures: rsvg-convert is missing (apt-get install "
                  "librsvg2-bin)\n";

@@ -44,13 +44,15 @@ void WriteTables(const std::string& folder, const char* extension, const std::ve
                  std::string (*format)(const Table&)) {
   if (folder.empty()) return;
   const std::vector<std::string> known = TableNames();
-  PrepareFolder(folder, [&](const std::string& file) {
+  const auto is_table = [&](const std::string& file) {
     return std::any_of(known.begin(), known.end(),
                        [&](const std::string& name) { return file == name + extension; });
+  };
+  ReplaceFiles(folder, is_table, [&](const std::filesystem::path& new_folder) {
+    for (const Table& table : tables) {
+      WriteFile(new_folder / (table.name + extension), format(table));
+    }
   });
-  for (const Table& table : tables) {
-    WriteFile(std::filesystem::path(folder) / (table.name + extension), format(table));
-  }
 }
 
 /// What is to stand beside `sessions`, if there are any.

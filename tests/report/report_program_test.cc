@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -107,6 +110,36 @@ TEST_F(ReportProgramTest, TablesOfAnEarlierReportAreReplaced) {
   }
   EXPECT_TRUE(std::filesystem::exists(folder_ / "csv/times.csv"));
   for (const std::string& file : others) EXPECT_TRUE(std::filesystem::exists(folder_ / file));
+}
+
+TEST_F(ReportProgramTest, AnEarlierReportStaysWhereThereIsNoRoomForANewOne) {
+  WriteSession(folder_ / "example", {{.contestant = "A"},
+                                     {.contestant = "A",
+                                      .problem = 2,
+                                      .status = PlanStatus::kTimedOut,
+                                      .reason = std::string(200'000, 'x')}});
+  folder_.Write("page.html", "the page before");
+  folder_.Write("csv/success.csv", "the table before");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // in the process that is started, too
+  rlimit full = before;
+  full.rlim_cur = 100'000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
+  const auto expect_no_room = [&](const std::vector<std::string>& more, const char* reason) {
+    std::vector<std::string> arguments = {Path("example"), "--out", Path("page.html")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(Run(arguments), kExitBadInput);
+    EXPECT_THAT(errors_, HasSubstr(reason));
+  };
+  expect_no_room({}, "page.html: File too large");
+  expect_no_room({"--csv", Path("csv")}, "failures.csv: File too large");
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(ReadText(folder_ / "page.html"), "the page before");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "page.html.part"));
+  EXPECT_EQ(ReadText(folder_ / "csv/success.csv"), "the table before");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "csv"), {}), 1);
 }
 
 TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
