@@ -169,8 +169,8 @@ Table DirectionTable(const ComparedSessions& compared) {
       "Planning time of confirmed attempts by direction, ms",
       "Of the contestants that searched from goal to start, too. Attempts of either direction for "
       "themselves, without what an attempt before them took; a problem counts once, by the median "
-      "of its confirmed ones. Of a trial with confirmed paths of both directions everything else "
-      "counts the one from start to goal.",
+      "of its confirmed ones. Of a trial with confirmed paths of both directions success, times, "
+      "curves, path quality, phases and mesh verdicts count the one from start to goal.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"direction", "direction"},
