@@ -1,10 +1,10 @@
 #include "common/write_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
-#include <string>
 #include <system_error>
 
 #include "common/error.h"
@@ -13,27 +13,47 @@ namespace planbench {
 
 namespace fs = std::filesystem;
 
-void WriteFile(const fs::path& file, std::string_view text) {
-  std::error_code error;
-  const fs::file_status before = fs::status(file, error);
-  const bool is_new = !fs::exists(before);
-  const fs::path place = is_new ? file : fs::canonical(file, error);
-  const bool is_replaced = is_new || (fs::is_regular_file(before) && !place.empty());
-  const fs::path written = is_replaced ? fs::path(place.string() + ".part") : file;
+namespace {
+
+/// Why not all of it is in the file now, if it is not.
+std::error_code Write(const fs::path& file, std::string_view text) {
   errno = 0;
-  std::ofstream stream(written, std::ios::binary | std::ios::trunc);
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << text;
   stream.close();
-  error.assign(stream ? 0 : errno, std::generic_category());
-  if (stream && is_replaced) {
-    if (!is_new) fs::permissions(written, before.permissions(), error);
-    fs::rename(written, place, error);
-  }
-  if (stream && !error) return;
+  if (stream) return {};
+  return {errno == 0 ? EIO : errno, std::generic_category()};
+}
+
+/// Whether another file may come in its place: in a folder that takes none it is written to, and
+/// one that may not be written is not replaced either.
+bool IsReplaceable(const fs::path& file) {
   std::error_code ignored;
-  if (is_replaced) fs::remove(written, ignored);
-  const std::string why = error ? fmt::format(": {}", error.message()) : "";
-  throw InputError(fmt::format("cannot write {}{}", file.string(), why));
+  return fs::is_regular_file(file, ignored) && access(file.c_str(), W_OK) == 0 &&
+         access(file.parent_path().c_str(), W_OK) == 0;
+}
+
+}  // namespace
+
+void WriteFile(const fs::path& file, std::string_view text) {
+  std::error_code error, ignored;
+  const bool is_new = !fs::exists(fs::symlink_status(file, error));
+  const fs::path place = is_new ? file : fs::canonical(file, error);  // "" of links to nothing
+  if (is_new || IsReplaceable(place)) {
+    const fs::path unfinished = place.string() + ".part";
+    error = Write(unfinished, text);
+    const bool is_whole = !error;
+    if (is_whole) {
+      if (!is_new) fs::permissions(unfinished, fs::status(place, error).permissions(), error);
+      fs::rename(unfinished, place, error);
+    }
+    if (error) fs::remove(unfinished, ignored);
+    // Files that are mounted by themselves, as into containers, keep their place.
+    if (error && is_whole) error = Write(place, text);
+  } else {
+    error = Write(file, text);
+  }
+  if (error) throw InputError(fmt::format("cannot write {}: {}", file.string(), error.message()));
 }
 
 }  // namespace planbench
