@@ -192,7 +192,7 @@ TEST_F(AraPlannerTest, BadParametersOfARequestAreNamed) {
     std::string message;
   };
   for (const Case& test :
-       {Case{"epsilon_initial", "0.5", "at least 1"},
+       {Case{"epsilon_initial", "0.5", "from 1 to 1000000, found 0.5"},
         Case{"epsilon_final", "11", "epsilon_final 11"}, Case{"cost", "cheap", "cheap"},
         Case{"discretization", "{elbow: -1}", "discretization.elbow"},
         Case{"discretization", "{elbow: 1e-9}", "cells"},
