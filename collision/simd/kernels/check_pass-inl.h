@@ -59,6 +59,9 @@ class CheckPass {
       if (verdicts_.Done()) return;
     }
     for (const InsideTest& test : robot_.inside_tests) {
+      // What was outside all along the motion's stretches is so in their cuts, as long as no
+      // surfaces touch.
+      if (only_open && !test.doubtful) continue;
       if (TestPoints(test)) return;
     }
   }
@@ -124,13 +127,17 @@ class CheckPass {
     placement_.PlaceRoot(test.root_in, test.body_in);
     const Node& in = placement_.node(test.root_in);
     const Poses X_WC = placement_.PosesOf(test.body_of);
-    const V squared = SquaredNorm(X_WC * Fill(test.center) - placement_.Position(test.root_in));
-    const M touching = hn::Le(squared, Squared(Fill(in.radius + test.radius)));
-    if (None(hn::And(verdicts_.alive(), touching))) return false;
+    const Points middle = placement_.Position(test.root_in);
+    const auto near = [&](const Points& p, float radius) {
+      return hn::Le(SquaredNorm(p - middle), Squared(Fill(in.radius + radius)));
+    };
+    if (None(hn::And(verdicts_.alive(), near(X_WC * Fill(test.center), test.radius)))) return false;
     for (const auto& point : test.points) {
       const Points p = X_WC * Fill(point.data());
+      const M inside_ball = near(p, 0);
       for (int k = 0; k < in.num_insides; ++k) {
-        const M lanes = hn::And(verdicts_.alive(), touching);
+        const M lanes = hn::And(verdicts_.alive(), inside_ball);
+        if (None(lanes)) break;
         if (TestInside(InsideAt(in.first_inside + k), p, 0, lanes, test.doubtful)) return true;
       }
     }
