@@ -96,7 +96,7 @@ void RrtConnect::Prepare(JointSampler* sampler, int num, int last) {
   verdicts_.resize(unchecked_.size());
   edges_->ScreenStates({unchecked_ends_.data(), At(count)}, count, verdicts_);
   for (std::size_t i = 0; i < unchecked_.size(); ++i) {
-    candidates_[static_cast<std::size_t>(unchecked_[i])].end_is_valid = verdicts_[i] != 0;
+    candidates_[static_cast<std::size_t>(unchecked_[i])].end_passes = verdicts_[i] != 0;
   }
 }
 
@@ -106,7 +106,7 @@ int RrtConnect::Extend(int k, double* reached) {
   NodeTree& nodes = trees_[candidate.tree].nodes;
   double& domain = trees_[candidate.tree].domains[static_cast<std::size_t>(candidate.near.node)];
   std::copy_n(ends_.data() + At(k), n, reached);
-  if (!candidate.end_is_valid || !IsValidEdge(nodes.Positions(candidate.near.node), reached)) {
+  if (!candidate.end_passes || !IsValidEdge(nodes.Positions(candidate.near.node), reached)) {
     if (settings_->domain_radius > 0) {
       domain = std::isinf(domain) ? settings_->domain_radius
                                   : std::max(range_, domain * (1 - kDomainChange));

@@ -54,7 +54,7 @@ class RrtConnect {
     int tree = 0;
     NodeTree::Neighbor near;
     bool in_domain = true;
-    bool end_is_valid = false;
+    bool end_passes = false;  ///< If not, it is invalid.
   };
 
   /// Ends of a way from start to goal: nodes at the same place, one of each tree.

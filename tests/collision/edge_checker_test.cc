@@ -294,6 +294,11 @@ TEST(EdgeCheckerTest, ChecksStatesTogetherAsOneByOne) {
   EXPECT_EQ(edges.counters().states, 8);
   EXPECT_EQ(edges.counters().configurations, 5);
   edges.CheckStates({}, 0, {});
+  std::vector<unsigned char> passed(8, 9);
+  edges.ScreenStates(states, 8, passed);  // of an engine to which all is cheap
+  EXPECT_EQ(passed, valid);
+  EXPECT_EQ(edges.counters().states, 16);
+  EXPECT_EQ(edges.counters().configurations, 10);
   ExpectInputError([&] { edges.CheckStates(states, 7, valid); }, {"16 values", "7 states"});
 }
 

@@ -22,7 +22,7 @@ struct MovingPart {
 };
 
 /// Upper bounds of motions over the boxes of configurations that lanes stand for, m, margins
-/// included. Not kAround: lanes stand for configurations.
+/// included but where a bound says otherwise. Not kAround: lanes stand for configurations.
 template <bool kAround>
 class MotionBounds {
  public:
@@ -81,8 +81,8 @@ class MotionBounds {
     V most = Zero();  // In any direction.
     for (int i = part.body; i != 0; i = BodyAt(i).parent) {
       const Body& body = BodyAt(i);
-      const float weight = part.weights[body.joint];
       if (moves[body.joint] == 0) continue;
+      const float weight = part.weights[body.joint];
       const V width = HalfWidth(body.joint);
       const V arc = width * Fill(weight);
       const Poses X_WC = placement_.PosesOf(i);

@@ -82,7 +82,7 @@ inline bool PatchesMeet(const PatchView& a, const PatchView& b, const Transform&
       const float wide = margin + hull_a.slack + hull_b.slack;
       float direction[3];
       Difference(group.box.center, other.box.center, X_AB, direction);
-      return HullGap(a.robot, hull_a, hull_b, X_AB, wide, direction) <= wide &&
+      return !(HullGap(a.robot, hull_a, hull_b, X_AB, wide, direction) > wide) &&
              GroupsMeet(group, other.triangles, &other.box, X_AB, margin);
     });
   });

@@ -249,13 +249,14 @@ class SphereScratch {
 /// Lanes by bit.
 using LaneMask = std::uint32_t;
 
-/// Which tests are made. Those that prove stretches of a motion free need not be made again for
-/// what is cut of these.
+/// Which tests are made.
 enum class Tests {
   kAll,
-  kFindOpen,  ///< All; those that leave a lane open are added to the open ones.
-  kOpen,      ///< The open ones, if they were found; else all.
-  kScreen,    ///< Those against the world, and whether parts of the robot are inside of others.
+  /// With half widths: all; those that leave a lane open are added to the open ones. The others,
+  /// which prove stretches of a motion free, need not be made again for what is cut of these.
+  kFindOpen,
+  kOpen,    ///< With half widths: the open ones, if they were found; else all.
+  kScreen,  ///< Those against the world, and whether parts of the robot are inside of others.
 };
 
 struct BlockQuery {
@@ -267,7 +268,6 @@ struct BlockQuery {
   const float* margins = nullptr;
   LaneMask lanes = 0;  ///< Lanes to check.
   bool stop_at_first = false;
-  /// With half widths.
   Tests tests = Tests::kAll;
 };
 
