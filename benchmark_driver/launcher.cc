@@ -90,10 +90,10 @@ void RequirePrograms(const std::vector<LineUpEntry>& line_up,
   for (const LineUpEntry& entry : line_up) {
     if (!entry.contestant.command.empty() || known.contains(entry.program)) continue;
     const std::string advice =
-        line_up_then.empty()
-            ? fmt::format("others are started by --planner-command {}=COMMAND",
-                          entry.contestant.planner)
-            : fmt::format("the session was made with --lineup {}", ShellQuoted(line_up_then));
+        line_up_then.empty() ? fmt::format("others are started by --planner-command {}=COMMAND",
+                                           entry.contestant.planner)
+                             : fmt::format("the session was made with --lineup {}: give it again",
+                                           ShellQuoted(line_up_then));
     throw InputError(fmt::format("unknown planner '{}'; known are: {}; {}", entry.program,
                                  fmt::join(known, ", "), advice));
   }

@@ -25,8 +25,9 @@ TEST(RequireProgramsTest, EveryContestantNeedsAProgramOrACommand) {
   line_up[2].program = "prm";
   ExpectInputError([&] { RequirePrograms(line_up, programs.path()); },
                    {"'prm'", "ara, rrtc", "--planner-command mine="});
-  ExpectInputError([&] { RequirePrograms(line_up, programs.path(), "/my line-up.yaml"); },
-                   {"'prm'", "the session was made with --lineup '/my line-up.yaml'"});
+  ExpectInputError(
+      [&] { RequirePrograms(line_up, programs.path(), "/my line-up.yaml"); },
+      {"'prm'", "the session was made with --lineup '/my line-up.yaml': give it again"});
 }
 
 TEST(ProcessStopperTest, OfPlannersThatAreLiveThoseOfACommandAreNamedOnceHoweverASessionEnds) {
