@@ -1,5 +1,7 @@
 #include "report/output_folder.h"
 
+#include <set>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -38,14 +40,19 @@ void ReplaceFiles(const fs::path& folder,
   if (error) throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
   const ScratchFolder unfinished(folder / ".unfinished-");
   write(unfinished.path());
-  for (const fs::path& file : FilesIn(folder, is_of_report)) {
-    fs::remove(file, error);
-    if (error) throw InputError("cannot remove " + file.string() + ": " + error.message());
-  }
+  std::set<std::string> put;
   for (const fs::path& file : FilesIn(unfinished.path(), [](const auto&) { return true; })) {
     const fs::path place = folder / file.filename();
     fs::rename(file, place, error);
     if (error) throw InputError("cannot write " + place.string() + ": " + error.message());
+    put.insert(file.filename().string());
+  }
+  const auto is_left = [&](const std::string& name) {
+    return is_of_report(name) && !put.contains(name);
+  };
+  for (const fs::path& file : FilesIn(folder, is_left)) {
+    fs::remove(file, error);
+    if (error) throw InputError("cannot remove " + file.string() + ": " + error.message());
   }
 }
 

@@ -142,6 +142,16 @@ TEST_F(ReportProgramTest, AnEarlierReportStaysWhereThereIsNoRoomForANewOne) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "csv"), {}), 1);
 }
 
+TEST_F(ReportProgramTest, TablesThatCannotBePutInTheirPlaceCostNoEarlierOne) {
+  WriteSession(folder_ / "example", {{.contestant = "A"}});
+  folder_.Write("csv/changes.csv", "a table that the new report does not have");
+  folder_.Write("csv/times.csv/a folder's file", "");
+  EXPECT_EQ(Run({Path("example"), "--out", Path("page.html"), "--csv", Path("csv")}),
+            kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("cannot write " + Path("csv/times.csv")));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "csv/changes.csv"));
+}
+
 TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
   folder_.Write("empty/results.sqlite", "");
   WriteSession(folder_ / "example", {{.contestant = "A"}});
