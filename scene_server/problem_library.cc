@@ -262,14 +262,16 @@ const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFi
                     "and net.core.rmem_max, or make it smaller",
                     files.scene.string(), Megabytes(bytes), Megabytes(receive_buffer_bytes_)));
   }
-  // The first of them, which alone is told with the problem: verdicts depend on it.
-  if (std::string misfits = PostureMisfitsOf(problem); !misfits.empty()) {
-    problem.warnings.insert(problem.warnings.begin(),
-                            fmt::format("{}: --referee-robot judges it in another posture: {}",
-                                        files.request.string(), misfits));
-  }
   for (const std::string& warning : problem.warnings) spdlog::warn("{}", warning);
   served.message.message = Summary(problem.warnings);
+  // Told beside the first of the others: verdicts depend on it.
+  if (const std::string misfits = PostureMisfitsOf(problem); !misfits.empty()) {
+    const std::string misfit = fmt::format("{}: --referee-robot judges it in another posture: {}",
+                                           files.request.string(), misfits);
+    spdlog::warn("{}", misfit);
+    std::string& told = served.message.message;
+    told = told.empty() ? misfit : fmt::format("{}; {}", misfit, told);
+  }
   served.message.group = problem.group;
   served.message.start = problem.start;
   served.message.goal = problem.goal;

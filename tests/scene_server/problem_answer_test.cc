@@ -89,6 +89,17 @@ TEST(ProblemAnswer, SaysInWhatPostureTheRefereesRobotStandsInstead) {
                         "'finger_joint' is fixed there, at 0.0000, not at 0.0500"));
 }
 
+TEST(ProblemAnswer, ThatPostureHidesNoOtherWarning) {
+  TinyWorld world(/*with_mesh_robot=*/true);
+  world.folder().Write("problems/cans/scene0002.yaml", R"(robot_model_name: tiny
+world: {collision_objects: [{id: ball, primitives: [{type: sphere, dimensions: [0.1]}],
+  primitive_poses: [{position: [3, 0, 0], orientation: [0, 0, 0, 0]}]}]}
+)");
+  EXPECT_THAT(world.service().AnswerProblem({"id", "cans", 2}).problem.message,
+              AllOf(HasSubstr("judges it in another posture: "), HasSubstr("scene0002.yaml:3"),
+                    HasSubstr("no rotation")));
+}
+
 TEST(ProblemAnswer, NamesTheGroupThatAnEmptyNameMeans) {
   const TemporaryFolder folder;
   Problem problem = TinyProblem();
