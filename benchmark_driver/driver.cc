@@ -95,9 +95,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
     for (const NodeStatusMessage& node : registry_.Live(kind)) RequireSameBuild(node);
   }
   served_ = *registry_.ProblemSets();
-  if (const auto found = registry_.Find(served_.server, NodeKind::kSceneServer)) {
-    referee_misfits_ = Lookup(found->settings, kRefereeMisfits).value_or("");
-  }
+  scene_server_ = registry_.Find(served_.server, NodeKind::kSceneServer);
   FoundPlanners found_planners = CompleteConditions(registry_, served_, line_up_, &options_);
   planners_ = std::move(found_planners.planners);
   first_planners_ = std::move(found_planners.first_planners);
@@ -304,6 +302,10 @@ void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
   }
 }
 
+std::string Driver::referee_misfits() const {
+  return scene_server_ ? Lookup(scene_server_->settings, kRefereeMisfits).value_or("") : "";
+}
+
 std::vector<PlannedPlanner> Driver::PlannedPlanners() const {
   std::vector<PlannedPlanner> planned;
   for (const LineUpEntry& entry : line_up_) {
@@ -335,6 +337,9 @@ SessionMessage Driver::Session(bool finished) const {
   session.left_out = left_out_;
   for (const NodeStatusMessage& node : registry_.Live()) {
     if (node.kind != NodeKind::kPlanner) session.nodes.push_back(node);
+  }
+  if (scene_server_ && registry_.Live(NodeKind::kSceneServer).empty()) {
+    session.nodes.push_back(*scene_server_);  // it tells the warnings
   }
   for (const auto* planners : {&planners_, &earlier_planners_}) {
     for (const auto& [name, planner] : *planners) session.nodes.push_back(planner);

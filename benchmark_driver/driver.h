@@ -89,7 +89,7 @@ class Driver {
   /// Complete once the processes are found.
   const SessionConditions& conditions() const { return options_.conditions; }
   /// In what the scene server says that its mesh robot is another one (RefereeMisfits).
-  const std::string& referee_misfits() const { return referee_misfits_; }
+  std::string referee_misfits() const;
 
  private:
   std::string Missing(bool need_logger) const;
@@ -152,10 +152,10 @@ class Driver {
   NodeRegistry registry_;
   Recorder recorder_;
   ProblemSetsMessage served_;
-  std::string referee_misfits_;
-  std::vector<ScheduledRun> schedule_;  // what is left to do
-  int num_runs_ = 0;                    // of the session, those done earlier included
-  int num_owed_ = 0;                    // of those the resumed session's that are not to do
+  std::optional<NodeStatusMessage> scene_server_;  // as found
+  std::vector<ScheduledRun> schedule_;             // what is left to do
+  int num_runs_ = 0;                               // of the session, those done earlier included
+  int num_owed_ = 0;  // of those the resumed session's that are not to do
   int num_owed_unjudgeable_ = 0;
   int num_owed_repeats_ = 0;
   std::vector<std::string> awaited_shards_;

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +54,39 @@ TEST_F(DriverTest, WhatWasOddAboutRobotsAndProblemsIsToldWithTheSession) {
   MakeAll(&again);
   EXPECT_THAT(ToldBy(logger.sessions().messages().back(), kProblemWarning),
               ElementsAre("request0001.yaml: is odd"));
+}
+
+TEST_F(DriverTest, OfASceneServerThatIsGoneAtTheEndTheWarningsStay) {
+  PlanResult failed;
+  failed.status = PlanStatus::kTimedOut;
+  std::atomic<bool> is_asked = false;
+  FakePlanner planner(&bus_);
+  auto server = std::make_optional<FakeSceneServer>(
+      &bus_, std::map<std::string, std::string>{{std::string(kRobotWarning) + " 01", "is odd"}});
+  FakeLogger logger(&bus_);
+  planner.OnRequest([&](const PlanRequest& request) {
+    if (request.request_id.ends_with("/warm-up")) {
+      planner.SendResult(request.request_id, failed);
+    } else {
+      planner.Acknowledge(request, PlanAckVerdict::kWorking);
+      is_asked = true;
+    }
+  });
+  DriverOptions options = Options();
+  options.directions = Directions::kForward;
+  options.problem_indices = {1};
+  Driver driver(&bus_, options, LineUp({"arm"}), {});
+  driver.Discover(true, Idle);
+  NodeRegistry registry(&bus_);  // hears whatever the driver's does, and after it
+  const auto is_gone = [&] { return registry.Live(NodeKind::kSceneServer).empty(); };
+  ASSERT_TRUE(registry.WaitUntil([&] { return !is_gone(); }, kTestPatience));
+  const auto end_server = [&] {
+    if (!is_asked) return;
+    server.reset();
+    if (is_gone()) planner.SendResult(planner.requests().messages().back().request_id, failed);
+  };
+  EXPECT_TRUE(driver.Run(Never, end_server));
+  EXPECT_THAT(ToldBy(logger.sessions().messages().back(), kRobotWarning), ElementsAre("is odd"));
 }
 
 }  // namespace
