@@ -223,13 +223,13 @@ TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
 TEST_F(LaunchedSession, RunsThatAreNotMadeAreAFailure) {
   const auto session = folder() / "session";
   const auto begun = folder() / "begun";
-  // Started again it has other settings, so that it is not asked.
+  // Whenever it is started it has other settings than before, so that it is not asked again.
   const std::string command = fmt::format(
-      "mine=[ -e {0} ] && last=2 || last=1; touch {0}; exec {1} --robot {2} --name "
-      "mine --set range=0.0000$last --set extension=step",
+      "mine=echo >> {0}; exec {1} --robot {2} --name mine --set range=0.0000$(wc -l < {0}) "
+      "--set extension=step",
       begun.string(), Program("planner_rrtc"), RobotFolder());
   ChildProcess* driver = StartLaunchedDriver(
-      session, {"--problems-range", "1", "--time", "2", "--trials", "4", "--directions", "forward",
+      session, {"--problems-range", "1", "--time", "2", "--trials", "30", "--directions", "forward",
                 "--planners", "mine", "--planner-command", command});
   ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 1; }))
       << driver->Errors();
