@@ -4,10 +4,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <fstream>
+#include <string>
 #include <system_error>
 
 #include "common/error.h"
+#include "common/random_id.h"
 
 namespace planbench {
 
@@ -25,6 +28,13 @@ std::error_code Write(const fs::path& file, std::string_view text) {
   return {errno == 0 ? EIO : errno, std::generic_category()};
 }
 
+/// Beside the file, of a name that no other writer has, and none too long whatever the file's is.
+fs::path NewFileBeside(const fs::path& file) {
+  constexpr std::size_t kMostKept = 100;  // bytes
+  const std::string begin = file.filename().string().substr(0, kMostKept);
+  return file.parent_path() / fmt::format("{}.{}.part", begin, RandomId());
+}
+
 /// Whether another file may come in its place: in a folder that takes none it is written to, and
 /// one that may not be written is not replaced either.
 bool IsReplaceable(const fs::path& file) {
@@ -40,7 +50,7 @@ void WriteFile(const fs::path& file, std::string_view text) {
   const bool is_new = !fs::exists(fs::symlink_status(file, error));
   const fs::path place = is_new ? file : fs::canonical(file, error);  // "" of links to nothing
   if (is_new || IsReplaceable(place)) {
-    const fs::path unfinished = place.string() + ".part";
+    const fs::path unfinished = NewFileBeside(place);
     error = Write(unfinished, text);
     const bool is_whole = !error;
     if (is_whole) {
