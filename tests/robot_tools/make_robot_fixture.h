@@ -66,6 +66,10 @@ class MakeRobotTest : public testing::Test {
     folder_.Write("in/crane.srdf", text);
     flags_.srdf = folder_.path() / "in/crane.srdf";
   }
+  void Spheres(const std::string& text) {
+    folder_.Write("in/spheres.yaml", text);
+    flags_.spheres = folder_.path() / "in/spheres.yaml";
+  }
   void ExpectRefused(const std::vector<std::string>& parts) {
     ExpectInputError([&] { MakeSilently(); }, parts);
     EXPECT_FALSE(std::filesystem::exists(flags_.out)) << "something was written";

@@ -16,10 +16,9 @@ using testing::HasSubstr;
 
 TEST_F(MakeRobotTest, LinksThatAJointConnectsAreCheckedUnlessTheSrdfDisablesThem) {
   // The boom meets the mast where it hangs.
-  folder_.Write("in/spheres.yaml",
-                "links:\n  mast: [{center: [0.1, 0, 0.8], radius: 0.1}]\n"
-                "  boom: [{center: [0.3, 0, 0], radius: 0.15}]\n");
-  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  Spheres(
+      "links:\n  mast: [{center: [0.1, 0, 0.8], radius: 0.1}]\n"
+      "  boom: [{center: [0.3, 0, 0], radius: 0.15}]\n");
   const std::string group = "<robot name='crane'><group name='jib'><joint name='luff'/></group>";
   Srdf(group + "<disable_collisions link1='base' link2='boom'/></robot>");
   EXPECT_THAT(Make(), AllOf(HasSubstr("checked, though a joint connects them, as the SRDF does not "
@@ -43,10 +42,9 @@ TEST_F(MakeRobotTest, NoPairThatTheSrdfEnablesIsExempt) {
   const Robot apart = LoadRobot(flags_.out);
   EXPECT_TRUE(apart.ChecksLinks(apart.model.FindLink("base"), apart.model.FindLink("boom")));
   // A ball of the boom about its joint is always in that of the mast.
-  folder_.Write("in/spheres.yaml",
-                "links:\n  mast: [{center: [0.1, 0, 1], radius: 0.1}]\n"
-                "  boom: [{center: [0, 0, 0], radius: 0.1}]\n");
-  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  Spheres(
+      "links:\n  mast: [{center: [0.1, 0, 1], radius: 0.1}]\n"
+      "  boom: [{center: [0, 0, 0], radius: 0.1}]\n");
   flags_.replace = true;
   const std::string disabled = "<disable_collisions link1='base' link2='boom'/>";
   Srdf(group + disabled + "</robot>");
@@ -61,14 +59,12 @@ TEST_F(MakeRobotTest, NoPairThatTheSrdfEnablesIsExempt) {
 }
 
 TEST_F(MakeRobotTest, AHandOfSpheresThatAlwaysTouchIsExempt) {
-  folder_.Write(
-      "in/spheres.yaml",
+  Spheres(
       "links:\n  base: [{center: [0, 0, 0], radius: 0.3}]\n"
       "  boom: [{center: [0, 0, -1], radius: 1.5}]\n  hook: [{center: [0, 0, 0], radius: 0.01}]\n");
   Srdf(
       "<robot name='crane'><group name='jib'><joint name='slew'/></group>"
       "<disable_collisions link1='hook' link2='boom'/></robot>");
-  flags_.spheres = folder_.path() / "in/spheres.yaml";
   const std::string report = Make();
   EXPECT_THAT(report, HasSubstr("not checked either: base and boom"));
   EXPECT_THAT(report, HasSubstr("so that they are not checked: mast"));
@@ -78,10 +74,9 @@ TEST_F(MakeRobotTest, AHandOfSpheresThatAlwaysTouchIsExempt) {
 
 TEST_F(MakeRobotTest, WhatTouchesByDefaultWhileNoGroupMovesItIsExempt) {
   // The hook hangs at the boom's foot unless it is let down.
-  folder_.Write("in/spheres.yaml",
-                "links:\n  mast: [{center: [0, 0, 1], radius: 0.1}]\n"
-                "  hook: [{center: [-0.9, 0, 0.2], radius: 0.1}]\n");
-  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  Spheres(
+      "links:\n  mast: [{center: [0, 0, 1], radius: 0.1}]\n"
+      "  hook: [{center: [-0.9, 0, 0.2], radius: 0.1}]\n");
   Srdf(
       "<robot name='crane'><group name='foot'><joint name='slew'/></group>"
       "<disable_collisions link1='hook' link2='boom'/></robot>");
@@ -104,8 +99,7 @@ constexpr char kTightSpheres[] =
     "  hook: [{center: [-0.9, 0, -0.3], radius: 0.1}]\n";
 
 TEST_F(MakeRobotTest, WhatAGroupMovesIsCheckedThoughItTouchesWhereOthersAreHeld) {
-  folder_.Write("in/spheres.yaml", kTightSpheres);
-  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  Spheres(kTightSpheres);
   // The reel, in no group, is wound up by default; where a problem lets the hook down, the luffing
   // boom may meet the mast with it or not.
   Srdf(
@@ -127,8 +121,7 @@ TEST_F(MakeRobotTest, WhatAGroupMovesIsCheckedThoughItTouchesWhereOthersAreHeld)
 }
 
 TEST_F(MakeRobotTest, SelfCollisionIsThatOfTheGroupsJointsAndNamesItsPairs) {
-  folder_.Write("in/spheres.yaml", kTightSpheres);
-  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  Spheres(kTightSpheres);
   Srdf(
       "<robot name='crane'><group name='foot'><joint name='slew'/></group>"
       "<disable_collisions link1='mast' link2='hook'/>"

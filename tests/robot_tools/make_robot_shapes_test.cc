@@ -30,10 +30,9 @@ TEST_F(MakeRobotTest, MeshesAreEnclosedAndCopied) {
   flags_.without_spheres = true;
   ExpectRefused({"crane.urdf:7", "link 'hook'", "package://crane/hook.obj"});
 
-  folder_.Write("in/spheres.yaml", "links: {hook: [{center: [0, 0, 0], radius: 0.1}]}");
+  Spheres("links: {hook: [{center: [0, 0, 0], radius: 0.1}]}");
   flags_.without_spheres = false;
   flags_.replace = true;
-  flags_.spheres = folder_.path() / "in/spheres.yaml";
   EXPECT_THAT(Make(), AllOf(HasSubstr("1 mesh file missing"), HasSubstr("hook.obj")));
 
   folder_.Write("in/crane/hook.obj", MeshAsObj(TorusMesh(0.1, 0.03, 20, 10)));
@@ -131,8 +130,7 @@ TEST_F(MakeRobotTest, SizesAreToldWithoutSpheresToo) {
 TEST_F(MakeRobotTest, SizesAreToldWhereverTheSpheresComeFrom) {
   folder_.Write("in/hook.obj", MeshAsObj(TorusMesh(100, 30, 20, 10)));
   folder_.Write("in/crane.urdf", MeshCrane("hook.obj", "nowhere.obj"));
-  folder_.Write("in/spheres.yaml", "links: {hook: [{center: [0, 0, 0], radius: 0.1}]}");
-  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  Spheres("links: {hook: [{center: [0, 0, 0], radius: 0.1}]}");
   EXPECT_THAT(Make(), AllOf(HasSubstr("link 'hook', hook.obj: is 260 m large"),
                             HasSubstr("1 mesh file missing")));
 

@@ -136,8 +136,7 @@ TEST_F(MakeRobotTest, EdgesAreSampledByTheReachOfTurnsAndTheTravelOfSlides) {
 }
 
 TEST_F(MakeRobotTest, RefusesInOneLine) {
-  folder_.Write("in/spheres.yaml", "links:\n  toe: [{center: [0, 0, 0], radius: 0.1}]\n");
-  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  Spheres("links:\n  toe: [{center: [0, 0, 0], radius: 0.1}]\n");
   ExpectRefused({"spheres.yaml:2", "toe"});
   flags_.spheres.clear();
   Srdf("<robot name='walker'>\n<group name='leg'><joint name='knee'/></group></robot>");

@@ -137,13 +137,12 @@ class MotionBounds {
 
 /// Bounds of how far parts move relative to each other, margins included, in lanes that `counts`;
 /// in others they stand still.
-template <bool kAround>
 class RelativeMotion {
  public:
-  static constexpr bool kMoves = kAround;
+  static constexpr bool kMoves = true;
 
   /// `most`: in any direction. `moves`: of what joints between the parts.
-  RelativeMotion(const MotionBounds<kAround>& bounds, V most, const float* moves, M counts,
+  RelativeMotion(const MotionBounds<true>& bounds, V most, const float* moves, M counts,
                  const MovingPart& part, const MovingPart* other = nullptr)
       : bounds_(bounds),
         most_(hn::IfThenElseZero(counts, most)),
@@ -161,7 +160,7 @@ class RelativeMotion {
   }
 
  private:
-  const MotionBounds<kAround>& bounds_;
+  const MotionBounds<true>& bounds_;
   V most_;
   const float* moves_;
   M counts_;
