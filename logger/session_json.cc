@@ -1,12 +1,10 @@
 #include "logger/session_json.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <system_error>
 
+#include "common/error.h"
+#include "common/write_file.h"
 #include "logger/utc_time.h"
 
 namespace planbench {
@@ -101,16 +99,12 @@ void WriteRunJson(const std::filesystem::path& file, const std::vector<std::stri
   for (const std::string& session : sessions) json["sessions"].push_back(Json::parse(session));
   json["event_log_files"] = num_event_log_files;
   if (!bus.empty()) json["bus"] = Json::parse(bus);
-  const std::filesystem::path unfinished = file.string() + ".part";
-  std::ofstream stream(unfinished, std::ios::trunc);
-  stream << Dump(json, 2) << '\n';
-  stream.close();
-  if (!stream) {
-    throw std::runtime_error("cannot write " + unfinished.string() + ": " + std::strerror(errno));
+  try {
+    WriteFile(file, Dump(json, 2) + "\n");
+  } catch (const InputError& error) {
+    // A full disk, say, is no bad use, of which a logger that ends would not be started again.
+    throw std::runtime_error(error.what());
   }
-  std::error_code error;
-  std::filesystem::rename(unfinished, file, error);
-  if (error) throw std::runtime_error("cannot write " + file.string() + ": " + error.message());
 }
 
 }  // namespace planbench

@@ -18,9 +18,8 @@ std::string SessionJson(const SessionMessage& session);
 std::string BusJson(const Bus::Counters& counters,
                     const std::vector<Contradictions::Entry>& contradictions);
 
-/// Writes {"sessions": [...], "event_log_files": N, "bus": ...} of such objects, so that a reader
-/// sees the old file or the new one but never half of one. Throws std::runtime_error naming the
-/// file.
+/// Writes {"sessions": [...], "event_log_files": N, "bus": ...} of such objects (WriteFile). Throws
+/// std::runtime_error, no InputError, naming the file.
 void WriteRunJson(const std::filesystem::path& file, const std::vector<std::string>& sessions,
                   int num_event_log_files, const std::string& bus = "");
 

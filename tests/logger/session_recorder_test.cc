@@ -184,7 +184,35 @@ TEST_F(SessionRecorderTest, RunJsonDescribesTheSessions) {
   EXPECT_EQ(node.at("settings").at("range"), "2");
   EXPECT_EQ(json.at("sessions").at(1).at("run_id"), "session-2");
   EXPECT_EQ(json.at("sessions").at(1).at("finished"), false);
-  EXPECT_FALSE(std::filesystem::exists(Folder() / "run.json.part"));
+}
+
+TEST_F(SessionRecorderTest, RunJsonIsWrittenBesideItsPlaceAndNoOtherFileIsTouched) {
+  const auto recorder = Open();
+  WriteText(Folder() / "run.json.part", "another's");
+  recorder->Record(Received(channel::kSession, SampleSession()));
+  recorder->Record(Received(channel::kSession, FinishedSession()));
+  EXPECT_EQ(TextOf(Folder() / "run.json.part"), "another's");
+  for (const auto& entry : std::filesystem::directory_iterator(Folder())) {
+    if (entry.path().extension() == ".part") EXPECT_EQ(entry.path().filename(), "run.json.part");
+  }
+}
+
+TEST_F(SessionRecorderTest, RunJsonThatCannotBeWrittenIsAFailureAndNoBadUse) {
+  const auto recorder = Open();
+  std::filesystem::create_directory(Folder() / "run.json");
+  try {
+    recorder->Record(Received(channel::kSession, SampleSession()));
+    ADD_FAILURE() << "nothing is thrown";
+  } catch (const InputError& error) {
+    ADD_FAILURE() << "the logger would not be started again: " << error.what();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("run.json: Is a directory"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_TRUE(acks_.empty());
+  std::filesystem::remove(Folder() / "run.json");
+  recorder->Record(Received(channel::kSession, SampleSession()));
+  EXPECT_EQ(acks_.size(), 1);
 }
 
 TEST_F(SessionRecorderTest, ARunWhoseRecordIsReplacedIsCountedOnce) {
