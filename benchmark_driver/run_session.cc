@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -45,12 +44,19 @@ void Warn(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
 }
 
-/// Says what is odd about the robots, once for all the processes that load them, and returns what
-/// no other says, of the sizes of their geometry. Throws InputError if the robot lacks the geometry
-/// of a contestant's collision model.
+/// Says what is odd about the robots, once for all the processes that load them and as soon as it
+/// is known, and returns what no other says, of the sizes of their geometry. Throws InputError if
+/// the robot lacks the geometry of a contestant's collision model.
 std::vector<std::string> CheckRobots(const DriverOptions& options,
                                      const std::vector<LineUpEntry>& line_up) {
   std::vector<std::string> odd_sizes;
+  const auto warn_of_sizes = [&](const Robot& of, const std::vector<LinkGeometry>& links) {
+    for (const std::string& line : OddSizes(of, links)) {
+      if (std::ranges::find(odd_sizes, line) != odd_sizes.end()) continue;  // of both robots
+      odd_sizes.push_back(line);
+      Warn({line});
+    }
+  };
   const Robot robot = options.robot.Load();
   Warn(robot.warnings);
   std::set<CollisionModel> checked;
@@ -60,7 +66,9 @@ std::vector<std::string> CheckRobots(const DriverOptions& options,
     try {
       if (model == CollisionModel::kMeshes) {
         // Without the time and the memory that a checker of it takes.
-        odd_sizes = OddSizes(robot, LoadSolidGeometry(robot));
+        const std::vector<LinkGeometry> links = LoadLinkGeometry(robot);
+        warn_of_sizes(robot, links);
+        RequireSolid(robot, links);
       } else {
         MakeCollisionChecker(robot, robot.Group(""), model);
       }
@@ -72,9 +80,8 @@ std::vector<std::string> CheckRobots(const DriverOptions& options,
   if (options.referee_robot) {
     const Robot referee = LoadRefereeRobot(*options.referee_robot, robot, options.robot.Packages());
     Warn(referee.warnings);
-    std::ranges::move(OddSizes(referee, LoadLinkGeometry(referee)), std::back_inserter(odd_sizes));
+    warn_of_sizes(referee, LoadLinkGeometry(referee));
   }
-  Warn(odd_sizes);
   return odd_sizes;
 }
 

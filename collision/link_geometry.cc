@@ -33,8 +33,7 @@ std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot) {
   return links;
 }
 
-std::vector<LinkGeometry> LoadSolidGeometry(const Robot& robot) {
-  std::vector<LinkGeometry> links = LoadLinkGeometry(robot);
+void RequireSolid(const Robot& robot, const std::vector<LinkGeometry>& links) {
   if (links.empty()) {
     throw InputError(fmt::format(
         "robot '{}' has no collision geometry, which the meshes model needs", robot.name));
@@ -43,7 +42,6 @@ std::vector<LinkGeometry> LoadSolidGeometry(const Robot& robot) {
     const std::string& name = At(robot.model.links(), geometry.link).name;
     for (const PlacedShape& placed : geometry.shapes) RequireSolid(placed.shape, name);
   }
-  return links;
 }
 
 std::vector<std::string> OddSizes(const Robot& robot, const std::vector<LinkGeometry>& links) {

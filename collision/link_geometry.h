@@ -18,9 +18,9 @@ struct LinkGeometry {
 /// read.
 std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot);
 
-/// The same as the model `meshes` needs it: also throws InputError if there is none, or a shape
-/// that is not solid (RequireSolid).
-std::vector<LinkGeometry> LoadSolidGeometry(const Robot& robot);
+/// Throws InputError unless it is what the model `meshes` needs: if there is none, or a shape that
+/// is not solid.
+void RequireSolid(const Robot& robot, const std::vector<LinkGeometry>& links);
 
 /// What is odd about the sizes of it (OddSize), a line each: what else reads the meshes says
 /// nothing of it.

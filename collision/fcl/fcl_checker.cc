@@ -50,7 +50,8 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
     : CollisionChecker(robot, group, model) {
   std::vector<LinkSphere> balls;  // that cover the geometry
   if (model == CollisionModel::kMeshes) {
-    const std::vector<LinkGeometry> links = LoadSolidGeometry(robot);
+    const std::vector<LinkGeometry> links = LoadLinkGeometry(robot);
+    RequireSolid(robot, links);
     for (const auto& [link, shapes] : links) {
       LinkShapes& geometry = links_.emplace_back(LinkShapes{link, SphereTree(), {}});
       const std::string& name = At(robot.model.links(), link).name;

@@ -2,7 +2,10 @@
 
 #include <fstream>
 
+#include "geometry/polyhedra.h"
 #include "tests/pipeline/pipeline_fixture.h"
+#include "tests/support/mesh_arm.h"
+#include "tests/support/obj_text.h"
 
 namespace planbench {
 namespace {
@@ -35,6 +38,28 @@ TEST_F(BadUse, MeshesModelWithoutTheMeshFiles) {
   ExpectBadInput(StartLaunchedDriver(folder() / "s", {"--collision-model", "meshes"}),
                  "--package-path fetch_description=DIR");
   EXPECT_TRUE(LeftRunning().empty());
+}
+
+TEST_F(BadUse, ASizeOfAnotherUnitIsToldOnceAndBeforeWhatIsRefusedThen) {
+  const TemporaryFolder robots;
+  robots.Write("box.obj", ObjText(BoxMesh({20, 20, 200})));  // mm
+  const std::string arm = WriteMeshArm(robots, "../box.obj").string();
+  robots.Write("none/readme", "no robot");
+  for (const auto& [referee, refused] :
+       {std::pair{(robots / "none").string(), "expected a robot.yaml or exactly one .urdf"},
+        std::pair{arm, "/nowhere"}}) {
+    ChildProcess* driver =
+        Start({Program("benchmark_driver"), "--launch", "--robot", arm, "--problems", "/nowhere",
+               "--out", (folder() / "s").string(), "--planners", "rrtc", "--collision-model",
+               "meshes", "--referee-robot", referee});
+    EXPECT_EQ(driver->Wait(), 2);
+    const std::string errors = driver->Errors();
+    const std::size_t told = errors.find("is 200 m large");
+    const std::size_t end = errors.find(refused);
+    ASSERT_NE(end, std::string::npos) << errors;
+    EXPECT_LT(told, end) << errors;
+    EXPECT_EQ(told, errors.rfind("is 200 m large")) << errors;
+  }
 }
 
 TEST_F(BadUse, EnclosingModelWithoutItsSpheres) {
