@@ -37,15 +37,6 @@ bool QuerySampler::Clear(const EndSpec& end, const std::vector<double>& q, Rejec
   return true;
 }
 
-std::vector<double> QuerySampler::Turned(const std::vector<double>& q,
-                                         const std::vector<double>& other,
-                                         InverseKinematics* kinematics) const {
-  std::vector<double> turned = q;
-  checker_->space().ToNearestTurn(other, turned);
-  // Joints that follow at a ratio, which is no whole number, would be elsewhere.
-  return kinematics->TipPose(turned).isApprox(kinematics->TipPose(q), 1e-6) ? turned : q;
-}
-
 std::optional<std::vector<double>> QuerySampler::Sample(
     const EndSpec& end, const SampledScene& scene, const std::optional<std::vector<double>>& other,
     RandomStream* random, Rejections* rejections) {
@@ -67,14 +58,14 @@ std::optional<std::vector<double>> QuerySampler::Sample(
     const Eigen::Isometry3d& X_BO = objects[random->Index(objects.size())];
     const Eigen::Isometry3d X_BT = DrawTipPose(end.gripper, X_BO, random);
     for (int solution = 0; solution < spec_->effort.solutions; ++solution) {
-      const IkResult result = kinematics.Solve(X_BT, random->engine(), options);
+      IkResult result = kinematics.Solve(X_BT, random->engine(), options);
       if (!result.solved) {
         rejections->Add(end.name + ": no inverse kinematics solution", end.where,
                         {result.position_error_m, result.orientation_error_rad, options});
         break;
       }
-      const std::vector<double> q = other ? Turned(result.q, *other, &kinematics) : result.q;
-      if (Clear(end, q, rejections)) return q;
+      if (other) checker_->space().ToNearestTurn(*other, result.q);
+      if (Clear(end, result.q, rejections)) return result.q;
     }
   }
   return std::nullopt;

@@ -23,16 +23,13 @@ class QuerySampler {
 
   /// A configuration (group order) for the end, free with the specification's clearance; nothing
   /// if the effort allowed has found none. Joints that a gripper's pose leaves several turns have
-  /// the one nearest to `other`, the query's other end, if that is known. What it threw away is
-  /// counted.
+  /// the one nearest to `other`, the query's other end, if that is known
+  /// (JointSpace::ToNearestTurn). What it threw away is counted.
   std::optional<std::vector<double>> Sample(const EndSpec& end, const SampledScene& scene,
                                             const std::optional<std::vector<double>>& other,
                                             RandomStream* random, Rejections* rejections);
 
  private:
-  // `q` at the turns nearest to `other`, as far as the tip of `kinematics` stays.
-  std::vector<double> Turned(const std::vector<double>& q, const std::vector<double>& other,
-                             InverseKinematics* kinematics) const;
   bool Clear(const EndSpec& end, const std::vector<double>& q, Rejections* rejections);
 
   const ProblemSpec* spec_;

@@ -111,7 +111,7 @@ void JointSpace::ToNearestTurn(std::span<const double> to, std::span<double> q) 
   constexpr double kTurn = 2 * std::numbers::pi;
   for (int j = 0; j < size(); ++j) {
     const auto i = static_cast<std::size_t>(j);
-    if (joint(j).continuous || joint(j).prismatic) continue;
+    if (joint(j).continuous || joint(j).prismatic || !joint(j).same_after_turn) continue;
     const double most = std::floor((highest_[i] - q[i]) / kTurn);
     const double least = std::ceil((lowest_[i] - q[i]) / kTurn);
     if (least > most) continue;

@@ -9,7 +9,8 @@ namespace planbench {
 
 /// The configuration space of a planning group: n joints in group order; positions in rad
 /// (revolute, continuous) or m (prismatic). Continuous joints wrap: differences and motions take
-/// the short way round.
+/// the short way round. Whole turns are taken from joints that are same_after_turn alone, so that
+/// the robot's posture, with all that follows the group's joints, stays what it was.
 class JointSpace {
  public:
   struct Joint {
@@ -19,6 +20,9 @@ class JointSpace {
     double lower = 0;         ///< -pi for a continuous joint.
     double upper = 0;         ///< +pi for a continuous joint.
     double max_velocity = 0;  ///< rad/s or m/s; 0: none is given
+    /// Whether all that follows a joint that turns is in the same posture when it has made a turn.
+    /// So it is of every continuous one (RobotModel::MakeGroup).
+    bool same_after_turn = true;
   };
 
   /// Bounds of limits are inclusive; a position may exceed them by this much (rad or m), the
@@ -57,7 +61,7 @@ class JointSpace {
   /// line each ("joint 'wheel' is at 90 rad, ..."): FindTurnsDoubt, and a joint outside its limits.
   std::vector<std::string> TakeTurnsOut(std::span<double> q) const;
   /// Brings joints that may turn more than once round to the turn, within their limits, that is
-  /// nearest to where they are at `to`.
+  /// nearest to where they are at `to`; those that are not same_after_turn stay.
   void ToNearestTurn(std::span<const double> to, std::span<double> q) const;
   /// The same space, of which those joints stay where `q` has them.
   JointSpace Held(const std::vector<int>& joints, std::span<const double> q) const;

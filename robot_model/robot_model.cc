@@ -83,7 +83,8 @@ int RobotModel::FindJoint(const std::string& name) const {
 }
 
 int RobotModel::FollowerThatTurnsMove(int joint) const {
-  if (joints_[static_cast<std::size_t>(joint)].type != JointType::kContinuous) return -1;
+  const JointType type = joints_[static_cast<std::size_t>(joint)].type;
+  if (type != JointType::kRevolute && type != JointType::kContinuous) return -1;
   const auto moved = std::ranges::find_if(joints_, [&](const Joint& follower) {
     const bool turns_whole = follower.type != JointType::kPrismatic &&
                              std::rint(follower.multiplier) == follower.multiplier;
@@ -161,7 +162,8 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
       fail(fmt::format("joint '{}' follows joint '{}' (mimic); name that one", joint_name,
                        joints_[static_cast<std::size_t>(joint.leader)].name));
     }
-    if (const int follower = FollowerThatTurnsMove(index); follower >= 0) {
+    const int follower = FollowerThatTurnsMove(index);
+    if (follower >= 0 && joint.type == JointType::kContinuous) {
       fail(
           fmt::format("joint '{}' is continuous, but joint '{}', which follows it, is elsewhere a "
                       "turn later",
@@ -170,6 +172,7 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
     if (!seen.insert(joint_name).second) fail(fmt::format("joint '{}' is repeated", joint_name));
     group.joints.push_back(index);
     space.push_back(SpaceJoint(joint));
+    space.back().same_after_turn = follower < 0;
   }
   group.space = JointSpace(std::move(space));
   for (std::size_t j = 0; j < joints_.size(); ++j) {

@@ -131,8 +131,8 @@ class RobotModel {
   int FindLink(const std::string& name) const;
   int FindJoint(const std::string& name) const;
 
-  /// Index of a joint that follows this one and is elsewhere when this, a continuous one, has made
-  /// a turn, so that no group can have it; -1 if there is none.
+  /// Index of a joint that follows this one and is elsewhere when this, a revolute or continuous
+  /// one, has made a turn; -1 if there is none. No group can have a continuous joint with one.
   int FollowerThatTurnsMove(int joint) const;
 
   /// True if nothing but fixed joints stands between the two links, or they are the same.

@@ -21,6 +21,13 @@ constexpr int kFingersOfAnyHand = 3;
 
 double Offset(const Joint& joint) { return joint.X_PJ.translation().norm(); }
 
+// Index of a joint that follows this one, so that no group can have it; -1 if there is none.
+int FollowerThatForbids(const RobotModel& model, int joint) {
+  const bool is_continuous =
+      model.joints()[static_cast<std::size_t>(joint)].type == JointType::kContinuous;
+  return is_continuous ? model.FollowerThatTurnsMove(joint) : -1;
+}
+
 class ArmFinder {
  public:
   explicit ArmFinder(const RobotModel& model)
@@ -74,7 +81,7 @@ class ArmFinder {
   const Joint& JointAt(int joint) const { return model_.joints()[static_cast<std::size_t>(joint)]; }
   bool CanPlan(int joint) const {
     return NumPositions(JointAt(joint).type) == 1 && JointAt(joint).leader < 0 &&
-           model_.FollowerThatTurnsMove(joint) < 0;
+           FollowerThatForbids(model_, joint) < 0;
   }
   static bool IsLong(const std::vector<int>& joints) {
     return static_cast<int>(joints.size()) >= kLeastJointsOfAnArm;
@@ -182,7 +189,7 @@ class ArmFinder {
 std::vector<std::string> RemarkLeftOut(const RobotModel& model) {
   std::vector<std::string> notes;
   for (std::size_t j = 0; j < model.joints().size(); ++j) {
-    const int follower = model.FollowerThatTurnsMove(static_cast<int>(j));
+    const int follower = FollowerThatForbids(model, static_cast<int>(j));
     if (follower < 0) continue;
     notes.push_back(fmt::format(
         "{}: is left out: it is continuous, but joint '{}', which follows it, is "

@@ -271,19 +271,6 @@ std::vector<PoseSet> ReadPoseSets(const YamlNode& constraints, const RobotModel&
   return all;
 }
 
-// The same configuration, but for whole turns: as near to `from` as it can be had. Joints that
-// others follow at a ratio stay.
-void TurnTowards(std::span<const double> from, const RobotModel& model, const PlanningGroup& group,
-                 const JointSpace& limits, std::vector<double>* q) {
-  const std::vector<double> before = *q;
-  limits.ToNearestTurn(from, *q);
-  for (const PlanningGroup::Follower& follower : group.followers) {
-    const double ratio = model.joints()[static_cast<std::size_t>(follower.joint)].multiplier;
-    const auto leader = static_cast<std::size_t>(follower.group_index);
-    if (ratio != std::round(ratio)) (*q)[leader] = before[leader];
-  }
-}
-
 struct Attempt {
   std::vector<double> q;
   double off_m = 0;  // Sums over the tips.
@@ -306,7 +293,7 @@ Attempt TryToReach(const std::vector<PoseSet>& poses, int number, const RobotMod
     attempt.q = tip.Solve(of_tip.Try(number, random), random, of_tip.Options()).q;
     limited.space = limited.space.Held(tip.moving_joints(), attempt.q);
   }
-  TurnTowards(from, model, group, limits, &attempt.q);
+  limits.ToNearestTurn(from, attempt.q);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Isometry3d X_BP = tips[i].TipPose(attempt.q);
     attempt.off_m += poses[i].PositionExcess(X_BP);

@@ -55,9 +55,9 @@ const JointGoal* FindGoal(const std::vector<JointGoal>& goals, const std::string
 void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& model,
                 const PlanningGroup& group, const std::vector<JointGoal>& goals,
                 const std::vector<double>& start) {
-  const auto is_met = [&](double position, bool is_continuous) {
+  const auto is_met = [&](double position, bool is_same_after_turn) {
     return Meets(goal, position) ||
-           (is_continuous && Meets(goal, goal.position + WrapAngle(position - goal.position)));
+           (is_same_after_turn && Meets(goal, goal.position + WrapAngle(position - goal.position)));
   };
   const auto fail = [&](const std::string& why, double position) {
     node.Fail(fmt::format("the joint '{}' {} at {:g}", goal.joint, why, position));
@@ -88,7 +88,10 @@ void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& m
     }
     if (joint.position_index >= 0) position = joint.multiplier * position + joint.offset;
   }
-  if (is_met(position, joint.type == JointType::kContinuous)) return;
+  // A turn later its followers would be elsewhere, and this another posture.
+  const bool is_same_after_turn =
+      joint.type == JointType::kContinuous && model.FollowerThatTurnsMove(index) < 0;
+  if (is_met(position, is_same_after_turn)) return;
   if (joint.type == JointType::kFixed) {
     const auto fault = FindPositionFault(model, goal.joint, goal.position);
     if (!fault) return;

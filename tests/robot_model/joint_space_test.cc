@@ -65,6 +65,18 @@ TEST(JointSpace, FindsTheTurnThatIsNearestWithinLimits) {
   EXPECT_EQ(q[1], 1) << "a turn more is beyond the limit";
 }
 
+TEST(JointSpace, AJointThatIsElsewhereATurnLaterKeepsItsTurns) {
+  const JointSpace space(
+      {{.name = "crank", .lower = -3 * kPi, .upper = 3 * kPi, .same_after_turn = false},
+       {.name = "twice", .lower = -2 * kPi, .upper = 2 * kPi}});
+  for (const JointSpace& one : {space, space.Held({}, std::vector<double>{0, 0})}) {
+    std::vector<double> q = {6, 6};
+    one.ToNearestTurn(std::vector<double>{-0.5, -0.5}, q);
+    EXPECT_EQ(q[0], 6);
+    EXPECT_NEAR(q[1], 6 - 2 * kPi, 1e-12);
+  }
+}
+
 TEST(JointSpace, HasNothingButOnePositionOfJointsThatAreHeld) {
   const JointSpace held = Space().Held({0, 2}, std::vector<double>{0.3, 1, 3});
   EXPECT_TRUE(held.WithinLimits(std::vector<double>{0.3, -2, 3}));

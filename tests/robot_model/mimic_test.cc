@@ -263,6 +263,37 @@ TEST(Mimic, AContinuousLeaderNeedsFollowersThatAreTheSameATurnLater) {
                    {"'j' is continuous", "'k'", "a turn later"});
 }
 
+TEST(Mimic, WholeTurnsAreTakenFromLeadersWhoseFollowersAreTheSameATurnLater) {
+  const auto model = [](const std::string& type, double multiplier) {
+    return RobotModel::FromUrdf(
+        fmt::format("<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+                    "<joint name='j' type='revolute'><parent link='a'/><child link='b'/>"
+                    "<limit lower='-9' upper='9' velocity='1' effort='1'/></joint>"
+                    "<joint name='k' type='{}'><parent link='a'/><child link='c'/>"
+                    "<limit lower='-99' upper='99' velocity='1' effort='1'/>"
+                    "<mimic joint='j' multiplier='{}' offset='0.3'/></joint></robot>",
+                    type, multiplier),
+        "r.urdf");
+  };
+  const auto turned = [&](const std::string& type, double multiplier) {
+    const RobotModel robot = model(type, multiplier);
+    const PlanningGroup group = robot.MakeGroup("g", {"j"}, "b");  // Which `k` does not move.
+    std::vector<double> q = {-4};
+    group.space.ToNearestTurn(std::vector<double>{4}, q);
+    ExpectSamePoses(ComputeLinkPoses(robot, q), ComputeLinkPoses(robot, std::vector<double>{-4}));
+    return q[0];
+  };
+  for (const double multiplier : {0.0, 1.0, -3.0}) {
+    EXPECT_NEAR(turned("revolute", multiplier), 2 * kPi - 4, 1e-12) << multiplier;
+  }
+  for (const double multiplier : {0.5, -1.25}) {
+    EXPECT_EQ(turned("revolute", multiplier), -4) << multiplier;
+    EXPECT_EQ(model("revolute", multiplier).FollowerThatTurnsMove(0), 1);
+  }
+  EXPECT_NEAR(turned("prismatic", 0), 2 * kPi - 4, 1e-12);
+  EXPECT_EQ(turned("prismatic", 1), -4) << "metres are no turns";
+}
+
 TEST(Mimic, AContinuousLeaderHasNoEndlessRange) {
   const RobotModel model = RobotModel::FromUrdf(
       "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"

@@ -450,6 +450,37 @@ TEST(ContinuousJoints, OutsideTheGroupAreWhereTheyAreAtAnyTurn) {
   ExpectInputError([&] { read("3.5"); }, {"'a_joint' is not in group 'arm' and stays at 0.5"});
 }
 
+TEST(ContinuousJoints, OutsideTheGroupAreAtNoOtherTurnWhereTheirFollowersWouldBeElsewhere) {
+  const auto read = [&](double multiplier, const std::string& goal) {
+    Robot robot;
+    robot.name = "crank";
+    robot.model = RobotModel::FromUrdf(
+        fmt::format("<robot name='crank'><link name='a'/><link name='b'/><link name='c'/>"
+                    "<link name='d'/>"
+                    "<joint name='turn' type='continuous'><parent link='a'/><child link='b'/>"
+                    "</joint><joint name='gear' type='continuous'><parent link='a'/>"
+                    "<child link='c'/><mimic joint='turn' multiplier='{}'/></joint>"
+                    "<joint name='lift' type='prismatic'><parent link='a'/><child link='d'/>"
+                    "<limit lower='0' upper='2' velocity='1' effort='1'/></joint></robot>",
+                    multiplier),
+        "crank.urdf");
+    robot.groups = {robot.model.MakeGroup("lift", {"lift"}, "d")};
+    return ParseProblem(
+        YamlNode::Parse("robot_model_name: crank\n", "scene.yaml"),
+        YamlNode::Parse("start_state: {joint_state: {name: [lift, turn], position: [0, 0.5]}}\n"
+                        "goal_constraints: [{joint_constraints: [{joint_name: lift, position: 1}, "
+                        "{joint_name: turn, position: " +
+                            goal + "}]}]\n",
+                        "request.yaml"),
+        robot, {});
+  };
+  const std::string a_turn_later = "6.783185307179586";
+  EXPECT_NO_THROW(read(2, a_turn_later));
+  EXPECT_NO_THROW(read(0.5, "0.5"));
+  ExpectInputError([&] { read(0.5, a_turn_later); },
+                   {"the joint 'turn' is not in group 'lift' and stays at 0.5"});
+}
+
 Scene SceneOfOctomap(const std::string& data, const std::string& binary) {
   return ParseProblem(R"(robot_model_name: fetch
 fixed_frame_transforms:
