@@ -203,10 +203,11 @@ Json SetJson(const ComparedSessions& compared, const std::string& name,
   };
   Json json = {{"name", name}, {"all", is_all}};
   json["trained"] = TrainedJson(compared, name);
-  const auto profiles = PerformanceProfiles(set);
+  const PerformanceProfiles profiles = ProfileTimes(set);
+  json["profile_problems"] = profiles.num_problems;
   json["profile"] =
       ByContestant(compared, set, [&](const Outcomes&, const ComparedContestant& contestant) {
-        return ProfileJson(profiles.at(contestant.name));
+        return ProfileJson(profiles.by_contestant.at(contestant.name));
       });
   json["survival"] = each(SurvivalJson);
   if (is_all) return json;  // made of the sets by the page, but for what is a figure of its own

@@ -136,10 +136,9 @@ std::vector<SolvedBy> SolvedOverTime(const Outcomes& outcomes) {
   return steps;
 }
 
-std::map<std::string, std::vector<ProfileStep>> PerformanceProfiles(
-    const std::map<std::string, Outcomes>& contestants) {
+PerformanceProfiles ProfileTimes(const std::map<std::string, Outcomes>& contestants) {
   const std::map<int, double> best = BestTimes(contestants);
-  std::map<std::string, std::vector<ProfileStep>> profiles;
+  PerformanceProfiles profiles{.num_problems = static_cast<int>(best.size()), .by_contestant = {}};
   for (const auto& [name, outcomes] : contestants) {
     std::vector<double> ratios;
     for (const auto& [problem, shortest] : best) {
@@ -147,7 +146,7 @@ std::map<std::string, std::vector<ProfileStep>> PerformanceProfiles(
       if (std::isfinite(time)) ratios.push_back(time / shortest);
     }
     std::sort(ratios.begin(), ratios.end());
-    std::vector<ProfileStep>& steps = profiles[name];
+    std::vector<ProfileStep>& steps = profiles.by_contestant[name];
     for (std::size_t i = 0; i < ratios.size(); ++i) {
       if (i + 1 < ratios.size() && ratios[i + 1] == ratios[i]) continue;
       steps.push_back({ratios[i], static_cast<double>(i + 1) / static_cast<double>(best.size())});

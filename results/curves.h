@@ -27,11 +27,14 @@ struct ProfileStep {
   double ratio = 1;  ///< Time of the contestant over the best one's on the same problem.
   double share = 0;  ///< Of the problems on which the contestant is within the ratio.
 };
-/// Performance profiles (Dolan and Moré 2002) by contestant, over the problems that all of them
-/// tried; one that nobody solved counts against all, one of which a time is 0 is left out. One step
-/// for each ratio at which the share rises, ascending.
-std::map<std::string, std::vector<ProfileStep>> PerformanceProfiles(
-    const std::map<std::string, Outcomes>& contestants);
+/// Performance profiles (Dolan and Moré 2002), over the problems that all contestants tried; one
+/// that nobody solved counts against all, one of which a time is 0 is left out.
+struct PerformanceProfiles {
+  int num_problems = 0;  ///< That they are over.
+  /// One step for each ratio at which the share rises, ascending.
+  std::map<std::string, std::vector<ProfileStep>> by_contestant;
+};
+PerformanceProfiles ProfileTimes(const std::map<std::string, Outcomes>& contestants);
 
 /// Quartiles over the problems of what there is in hand at a time. A problem counts once, by the
 /// median of its trials. Nothing where so many have no solution yet that the quartile is infinite.

@@ -1,8 +1,8 @@
 "use strict";
 const curvesHeight = () => charts.CURVES_HEIGHT;
 // The kinds of figures that there are for each set: of what values they are made, [{contestant, ...}], and how, if they are to be
-// `width` px wide; how high they are of contestants with these names, without axes, px. `names` and `places` are those of the
-// values' contestants; open(problem) is what a point of a run leads to.
+// `width` px wide; how high they are of contestants with these names, without axes, px; of how many problems they are, where that
+// need not be all. `names` and `places` are those of the values' contestants; open(problem) is what a point of a run leads to.
 const figureKinds = {
   success: {
     title: "Success", height: charts.rowsHeight,
@@ -28,7 +28,7 @@ const figureKinds = {
   },
   profile: {
     title: "Performance profile", height: curvesHeight,
-    list: set => set.profile,
+    list: set => set.profile, problems: set => set.profile_problems,
     make: (width, names, places, values) => {
       const last = charts.logDomain([1, ...values.flatMap(value => value.ratio.slice(-1))])[1];
       return charts.curves(values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.ratio})),

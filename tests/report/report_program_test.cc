@@ -291,6 +291,29 @@ TEST_F(ReportProgramTest, FiguresAreWrittenForEverySet) {
   EXPECT_EQ(count, 2u) << crosses;
 }
 
+TEST_F(ReportProgramTest, AProfileTellsOverHowManyOfTheProblemsItIs) {
+  if (std::system("command -v node >/dev/null") != 0) {
+    GTEST_SKIP() << "no node here: apt-get install nodejs";
+  }
+  WriteSession(folder_ / "example", {{.contestant = "A"},
+                                     {.contestant = "A", .problem = 2},
+                                     {.contestant = "A", .problem = 3},
+                                     {.contestant = "A", .set = "other"},
+                                     {.contestant = "B"},
+                                     {.contestant = "B", .problem = 2},
+                                     {.contestant = "B", .set = "other"}});
+  ASSERT_EQ(Run({Path("example"), "--out", Path("page.html"), "--figures", Path("figures")}),
+            kExitOk)
+      << errors_;
+  const std::map<std::string, std::string> told = {
+      {"profile-shelf", ">2 of 3 problems, "},    {"survival-shelf", ">3 problems, "},
+      {"profile-other", ">1 problem, "},          {"survival-other", ">1 problem, "},
+      {"profile-all_sets", ">3 of 4 problems, "}, {"survival-all_sets", ">4 problems, "}};
+  for (const auto& [figure, problems] : told) {
+    EXPECT_THAT(ReadText(folder_ / "figures" / (figure + ".svg")), HasSubstr(problems)) << figure;
+  }
+}
+
 TEST_F(ReportProgramTest, FiguresAndTablesMarkWhoHasLearned) {
   if (std::system("command -v node >/dev/null") != 0) {
     GTEST_SKIP() << "no node here: apt-get install nodejs";

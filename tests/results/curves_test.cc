@@ -81,8 +81,9 @@ TEST(PerformanceProfilesTest, CountsProblemsWithinTheRatioOfTheFastest) {
   std::map<std::string, Outcomes> all;
   for (const char* name : {"A", "B", "C"}) all[name] = Drawn(&random, 12, 1);
   all["C"].by_problem.erase(4);
-  const auto profiles = PerformanceProfiles(all);
-  for (const auto& [name, steps] : profiles) {
+  const PerformanceProfiles profiles = ProfileTimes(all);
+  EXPECT_EQ(profiles.num_problems, 11);
+  for (const auto& [name, steps] : profiles.by_contestant) {
     ASSERT_FALSE(steps.empty());
     for (const ProfileStep& step : steps) {
       int within = 0;
@@ -101,24 +102,26 @@ TEST(PerformanceProfilesTest, CountsProblemsWithinTheRatioOfTheFastest) {
 }
 
 TEST(PerformanceProfilesTest, WhatNobodySolvedCountsAgainstAll) {
-  const auto profiles = PerformanceProfiles(
-      {{"A", OutcomesOf({{1}, {kInfinity}})}, {"B", OutcomesOf({{4}, {kInfinity}})}});
-  ASSERT_EQ(profiles.at("A").size(), 1u);
-  EXPECT_EQ(profiles.at("A")[0].ratio, 1);
-  EXPECT_EQ(profiles.at("A")[0].share, 0.5);
-  ASSERT_EQ(profiles.at("B").size(), 1u);
-  EXPECT_EQ(profiles.at("B")[0].ratio, 4);
-  EXPECT_TRUE(PerformanceProfiles({}).empty());
+  const PerformanceProfiles profiles =
+      ProfileTimes({{"A", OutcomesOf({{1}, {kInfinity}})}, {"B", OutcomesOf({{4}, {kInfinity}})}});
+  ASSERT_EQ(profiles.by_contestant.at("A").size(), 1u);
+  EXPECT_EQ(profiles.by_contestant.at("A")[0].ratio, 1);
+  EXPECT_EQ(profiles.by_contestant.at("A")[0].share, 0.5);
+  ASSERT_EQ(profiles.by_contestant.at("B").size(), 1u);
+  EXPECT_EQ(profiles.by_contestant.at("B")[0].ratio, 4);
+  EXPECT_EQ(profiles.num_problems, 2);
+  EXPECT_TRUE(ProfileTimes({}).by_contestant.empty());
 }
 
 TEST(PerformanceProfilesTest, NothingIsDividedByATimeOfNothing) {
-  const auto profiles = PerformanceProfiles(
+  const PerformanceProfiles profiles = ProfileTimes(
       {{"A", OutcomesOf({{0, 0, 1}, {1}, {1}})}, {"B", OutcomesOf({{2}, {2}, {kInfinity}})}});
-  ASSERT_EQ(profiles.at("A").size(), 1u);
-  EXPECT_EQ(profiles.at("A")[0].share, 1);
-  ASSERT_EQ(profiles.at("B").size(), 1u);
-  EXPECT_EQ(profiles.at("B")[0].ratio, 2);
-  EXPECT_EQ(profiles.at("B")[0].share, 0.5);
+  EXPECT_EQ(profiles.num_problems, 2);
+  ASSERT_EQ(profiles.by_contestant.at("A").size(), 1u);
+  EXPECT_EQ(profiles.by_contestant.at("A")[0].share, 1);
+  ASSERT_EQ(profiles.by_contestant.at("B").size(), 1u);
+  EXPECT_EQ(profiles.by_contestant.at("B")[0].ratio, 2);
+  EXPECT_EQ(profiles.by_contestant.at("B")[0].share, 0.5);
 }
 
 StoredRun AnytimeRun(int problem, std::vector<PlanProgress> progress, int trial = 1) {
