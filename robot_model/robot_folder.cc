@@ -361,11 +361,11 @@ void AddPlanningGroups(const Robot& planning_robot, Robot* referee) {
   }
 }
 
-void WarnOfMisfits(const Robot& planning_robot, Robot* referee) {
-  const std::string misfits = RefereeMisfits(planning_robot, *referee);
-  if (misfits.empty()) return;
-  referee->warnings.push_back(
-      fmt::format("{}: as the referee's robot: {}", referee->folder.string(), misfits));
+void FindMisfits(const Robot& planning_robot, Robot* referee) {
+  referee->referee_misfits = RefereeMisfits(planning_robot, *referee);
+  if (referee->referee_misfits.empty()) return;
+  referee->warnings.push_back(fmt::format("{}: as the referee's robot: {}",
+                                          referee->folder.string(), referee->referee_misfits));
 }
 
 }  // namespace
@@ -472,7 +472,7 @@ Robot LoadRefereeRobot(const fs::path& folder_or_name, const Robot& planning_rob
     Robot referee = LoadRobot(folder, packages);
     AddPlanningGroups(planning_robot, &referee);
     RequireCommonBase(planning_robot, referee);
-    WarnOfMisfits(planning_robot, &referee);
+    FindMisfits(planning_robot, &referee);
     return referee;
   }
 
@@ -489,7 +489,7 @@ Robot LoadRefereeRobot(const fs::path& folder_or_name, const Robot& planning_rob
     referee.groups.push_back(MatchGroup(group, planning_robot, referee.model, urdf_file.string()));
   }
   RequireCommonBase(planning_robot, referee);
-  WarnOfMisfits(planning_robot, &referee);
+  FindMisfits(planning_robot, &referee);
   // What the planning robot checks, and what it never does, holds for its judge, too.
   ContentHash hash;
   hash.Add(urdf_text);

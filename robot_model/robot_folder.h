@@ -75,6 +75,7 @@ struct Robot {
   /// cannot be used (states outside the limits), one line each; whoever loads a robot for a user
   /// says it.
   std::vector<std::string> warnings;
+  std::string referee_misfits;  ///< RefereeMisfits, of a robot that judges another's paths.
 
   /// The group of that name; throws InputError naming the known ones, or why the SRDF's group of
   /// that name is none. An empty name is the first
@@ -102,7 +103,8 @@ Robot LoadRobot(const std::filesystem::path& folder_or_name,
 /// by joint and link names); if there is no such folder it is the robot of that name that ships.
 /// The folder also serves package:// URIs. Throws InputError if it has neither, or lacks a joint or
 /// link of the planning groups, or if neither robot has the other's root link, held by joints
-/// outside the groups: scenes are in the planning robot's base frame. Warns of RefereeMisfits.
+/// outside the groups: scenes are in the planning robot's base frame. Finds, and warns of, its
+/// referee_misfits.
 Robot LoadRefereeRobot(const std::filesystem::path& folder_or_name, const Robot& planning_robot,
                        const std::map<std::string, std::filesystem::path>& packages = {});
 

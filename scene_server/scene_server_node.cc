@@ -26,7 +26,7 @@ NodeStatusMessage StatusOf(const std::string& name, const SceneService& service)
   }
   if (service.mesh_robot()) {
     status.settings["referee_robot"] = service.mesh_robot()->folder.string();
-    const std::string misfits = RefereeMisfits(service.robot(), *service.mesh_robot());
+    const std::string& misfits = service.mesh_robot()->referee_misfits;
     if (!misfits.empty()) status.settings[kRefereeMisfits] = misfits;
   }
   TellWarnings(kRobotWarning, service.robot().warnings, &status.settings);

@@ -225,6 +225,15 @@ TEST_F(OtherReferee, IsToldByTheFirstLinkThatIsElsewhere) {
   EXPECT_THAT(Warnings({{"</robot>", stand}, {"0.3 0 0", "0.4 0 0"}}), HasSubstr("'lower'"));
 }
 
+TEST_F(OtherReferee, KnowsItsMisfitsOfWhichItWarns) {
+  EXPECT_EQ(Load({}, {}).second.referee_misfits, "");
+  const auto [hand, referee] = Load({}, {{"0.3 0 0", "0.4 0 0"}});
+  EXPECT_EQ(referee.referee_misfits, RefereeMisfits(hand, referee));
+  EXPECT_THAT(referee.warnings, testing::ElementsAre(testing::EndsWith("as the referee's robot: " +
+                                                                       referee.referee_misfits)));
+  EXPECT_EQ(hand.referee_misfits, "");
+}
+
 TEST_F(OtherReferee, JointsThatFollowOthersCountWhereBothHaveThem) {
   EXPECT_THAT(Warnings({{"<mimic joint=\"grip\"/>", "<mimic joint='grip' multiplier='2'/>"}}),
               HasSubstr("link 'right', beyond joint 'other_grip'"));

@@ -196,7 +196,10 @@ TEST_F(SceneServerNodeTest, TellsWhatItsRobotsAreMadeOf) {
   judge.warnings = {"it is even", "and odd"};
   EXPECT_THAT(ToldWarnings(kRobotWarning, settings_of(odd, judge)),
               testing::ElementsAre("tiny.urdf: is odd", "it is even", "and odd"));
-  // and in what its referee's is another robot.
+  // and in what its referee's is another robot, as it was found then.
+  EXPECT_FALSE(settings_of(odd, judge).contains(kRefereeMisfits));
+  judge.referee_misfits = "it is made of ice";
+  EXPECT_EQ(settings_of(odd, judge).at(kRefereeMisfits), "it is made of ice");
   std::string urdf = ReadText(world_.folder() / "tiny_meshes/tiny.urdf");
   world_.folder().Write("taller/tiny.urdf", urdf.replace(urdf.find("0 0 0.1"), 7, "0 0 0.2"));
   const Robot robot = LoadRobot(folder);
