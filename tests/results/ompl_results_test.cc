@@ -32,6 +32,8 @@ constexpr char kLog[] =
     "geometric_PRM\n0 common properties\n1 properties for each run\nsolved BOOLEAN\n1 runs\n1; \n"
     ".\n";
 
+constexpr char kExperiment[] = "(1, 'box', 5, 'host', 'OMPL 1.6', 'today')";
+
 class OmplResultsTest : public testing::Test {
  protected:
   StoredSession Log(const std::string& text) {
@@ -39,8 +41,17 @@ class OmplResultsTest : public testing::Test {
     return ImportResults(folder_ / "own.log", "OMPL", 60, &warnings_);
   }
 
-  /// Fills a database that OMPL's script would have made.
-  void Fill(const std::string& inserts) {
+  /// A database's rows, and statements that add `more`: one experiment with one planner, if no
+  /// others are given.
+  struct Rows {
+    std::string runs;
+    std::string planners = "(1, 'PRM', '')";
+    std::string experiments = kExperiment;
+    std::string more = {};
+  };
+  /// Makes a database as OMPL's script would have, in the place of an earlier one.
+  void Fill(const Rows& rows) {
+    std::filesystem::remove(folder_ / "own.db");
     SqliteConnection database(folder_ / "own.db", SqliteConnection::Mode::kReadWriteCreate);
     database.Execute(
         "CREATE TABLE experiments (id INTEGER PRIMARY KEY, name, timelimit, hostname, version, "
@@ -48,7 +59,10 @@ class OmplResultsTest : public testing::Test {
         "CREATE TABLE enums (name, value, description);"
         "CREATE TABLE runs (id INTEGER PRIMARY KEY, experimentid, plannerid, time REAL, solved, "
         "status, solution_length REAL, trial);");
-    database.Execute(inserts);
+    database.Execute(
+        fmt::format("INSERT INTO experiments VALUES {}; INSERT INTO plannerConfigs VALUES {};"
+                    "INSERT INTO runs VALUES {}; {}",
+                    rows.experiments, rows.planners, rows.runs, rows.more));
   }
   StoredSession Database() { return ImportResults(folder_ / "own.db", "mine", 60, &warnings_); }
 
@@ -153,12 +167,8 @@ TEST_F(OmplResultsTest, TimesAndLengthsBelowZeroAreRefused) {
   EXPECT_EQ(Log(log).runs[1].measures, (MeasuredValues{{"clearance", -4}}));
 
   const auto fill = [&](const std::string& limit, const std::string& run) {
-    std::filesystem::remove(folder_ / "own.db");
-    Fill(
-        fmt::format("INSERT INTO experiments VALUES (2, 'box', {}, 'host', 'OMPL 1.6', 'today');"
-                    "INSERT INTO plannerConfigs VALUES (1, 'PRM', '');"
-                    "INSERT INTO runs VALUES (7, 2, 1, {}, NULL);",
-                    limit, run));
+    Fill({.runs = fmt::format("(7, 2, 1, {}, NULL)", run),
+          .experiments = fmt::format("(2, 'box', {}, 'host', 'OMPL 1.6', 'today')", limit)});
   };
   fill("5", "-0.05, 1, 6, 4");
   ExpectInputError([&] { Database(); }, {"own.db: run 7 of experiment 2: time: -0.05 is negative"});
@@ -169,11 +179,10 @@ TEST_F(OmplResultsTest, TimesAndLengthsBelowZeroAreRefused) {
 }
 
 TEST_F(OmplResultsTest, ADatabaseIsReadLikeItsLog) {
-  Fill(
-      "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today');"
-      "INSERT INTO plannerConfigs VALUES (4, 'PRM', 'k = 5');"
-      "INSERT INTO enums VALUES ('status', 0, 'Timeout'), ('status', 1, 'Exact solution');"
-      "INSERT INTO runs VALUES (1, 1, 4, 0.25, 1, 1, 3, NULL), (2, 1, 4, 5, 0, 0, NULL, NULL);");
+  Fill({.runs = "(1, 1, 4, 0.25, 1, 1, 3, NULL), (2, 1, 4, 5, 0, 0, NULL, NULL)",
+        .planners = "(4, 'PRM', 'k = 5')",
+        .more = "INSERT INTO enums VALUES ('status', 0, 'Timeout'), "
+                "('status', 1, 'Exact solution');"});
   const StoredSession session = Database();
   ASSERT_EQ(session.contestants.size(), 1u);
   EXPECT_EQ(session.contestants[0].name, "mine");
@@ -191,14 +200,12 @@ TEST_F(OmplResultsTest, ADatabaseIsReadLikeItsLog) {
 }
 
 TEST_F(OmplResultsTest, ADatabasesProgressIsThatOfItsLog) {
-  Fill(
-      "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today');"
-      "INSERT INTO plannerConfigs VALUES (1, 'RRTstar', ''), (2, 'PRM', '');"
-      "INSERT INTO runs VALUES (3, 1, 1, 5.01, 1, 6, 4, NULL), (4, 1, 2, 1, 1, 6, 3, NULL);"
-      "CREATE TABLE progress (runid INTEGER, time REAL, best_cost REAL, iterations INTEGER, "
-      "PRIMARY KEY (runid, time));"
-      "INSERT INTO progress VALUES (3, 0.4, 4, 9), (3, 0.1, NULL, 1), (3, 0.2, 5, 2), "
-      "(3, 0.3, 5, 3), (8, 0.1, 1, 1);");
+  Fill({.runs = "(3, 1, 1, 5.01, 1, 6, 4, NULL), (4, 1, 2, 1, 1, 6, 3, NULL)",
+        .planners = "(1, 'RRTstar', ''), (2, 'PRM', '')",
+        .more = "CREATE TABLE progress (runid INTEGER, time REAL, best_cost REAL, "
+                "iterations INTEGER, PRIMARY KEY (runid, time));"
+                "INSERT INTO progress VALUES (3, 0.4, 4, 9), (3, 0.1, NULL, 1), (3, 0.2, 5, 2), "
+                "(3, 0.3, 5, 3), (8, 0.1, 1, 1);"});
   const StoredSession session = Database();
   ASSERT_EQ(session.runs.size(), 2u);
   const std::vector<PlanProgress>& progress = session.runs[0].progress;
@@ -215,21 +222,18 @@ TEST_F(OmplResultsTest, ADatabasesProgressIsThatOfItsLog) {
   ExpectInputError([&] { Database(); }, {"own.db: run 3 of experiment 1: time: -1 is negative"});
 }
 
-constexpr char kTwoPrograms[] =
-    "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today'), "
-    "(2, 'box', 5, 'host', 'planbench 0.2.0', 'today');"
-    "INSERT INTO plannerConfigs VALUES (1, 'PRM', ''), (2, 'ours', '');"
-    "INSERT INTO runs VALUES (1, 1, 1, 0.25, 1, 6, 3, NULL), (2, 1, 1, 5, 1, 5, NULL, NULL), "
-    "(3, 2, 2, 0.5, 1, 0, 3, 1), (4, 2, 2, 5, 0, 2, NULL, 2);";
-
 TEST_F(OmplResultsTest, AStatusIsOfTheListOfTheProgramThatWroteIt) {
   for (const std::string list :
        {"('status', 0, 'Unknown status'), ('status', 5, 'Approximate solution'), "
         "('status', 6, 'Exact solution')",
         "('status', 0, 'SOLVED'), ('status', 2, 'EXHAUSTED')"}) {
     SCOPED_TRACE(list);
-    std::filesystem::remove(folder_ / "own.db");
-    Fill(std::string(kTwoPrograms) + "INSERT INTO enums VALUES " + list + ";");
+    Fill({.runs = "(1, 1, 1, 0.25, 1, 6, 3, NULL), (2, 1, 1, 5, 1, 5, NULL, NULL), "
+                  "(3, 2, 2, 0.5, 1, 0, 3, 1), (4, 2, 2, 5, 0, 2, NULL, 2)",
+          .planners = "(1, 'PRM', ''), (2, 'ours', '')",
+          .experiments =
+              std::string(kExperiment) + ", (2, 'box', 5, 'host', 'planbench 0.2.0', 'today')",
+          .more = "INSERT INTO enums VALUES " + list + ";"});
     const StoredSession session = Database();
     ASSERT_EQ(session.runs.size(), 4u);
     EXPECT_EQ(session.runs[0].status, PlanStatus::kSolved);
@@ -241,11 +245,8 @@ TEST_F(OmplResultsTest, AStatusIsOfTheListOfTheProgramThatWroteIt) {
 }
 
 TEST_F(OmplResultsTest, WhatSolvedSaysCountsWhereTheStatusContradictsIt) {
-  Fill(
-      "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today');"
-      "INSERT INTO plannerConfigs VALUES (1, 'PRM', '');"
-      "INSERT INTO runs VALUES (1, 1, 1, 1, 1, 4, 3, NULL), (2, 1, 1, 1, 0, 6, 3, NULL), "
-      "(3, 1, 1, 1, 1, 77, 3, NULL), (4, 1, 1, 1, 0, 77, 3, NULL);");
+  Fill({.runs = "(1, 1, 1, 1, 1, 4, 3, NULL), (2, 1, 1, 1, 0, 6, 3, NULL), "
+                "(3, 1, 1, 1, 1, 77, 3, NULL), (4, 1, 1, 1, 0, 77, 3, NULL)"});
   const StoredSession session = Database();
   ASSERT_EQ(session.runs.size(), 4u);
   EXPECT_EQ(session.runs[0].status, PlanStatus::kSolved);
@@ -270,27 +271,23 @@ TEST_F(OmplResultsTest, APlannerWithTwoSettingsIsTwoContestants) {
 }
 
 TEST_F(OmplResultsTest, TrialsOfSeveralExperimentsAreAllKept) {
-  const std::string experiment =
-      "INSERT INTO plannerConfigs VALUES (1, 'PRM', '');"
-      "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today'), ";
-  const std::string runs =
-      "INSERT INTO runs VALUES (1, 1, 1, 1, 1, 6, 3, 1), (2, 1, 1, 2, 1, 6, 3, 2), ";
-  Fill(experiment + "(2, 'box', 5, 'host', 'OMPL 1.6', 'tomorrow');" + runs +
-       "(3, 2, 1, 3, 1, 6, 3, 1), (4, 2, 1, 4, 1, 6, 3, 2);");
+  // A second experiment of that day, and runs beside those of the first.
+  const auto fill = [&](const std::string& day, const std::string& runs) {
+    Fill({.runs = "(1, 1, 1, 1, 1, 6, 3, 1), (2, 1, 1, 2, 1, 6, 3, 2), " + runs,
+          .experiments =
+              fmt::format("{}, (2, 'box', 5, 'host', 'OMPL 1.6', '{}')", kExperiment, day)});
+  };
+  fill("tomorrow", "(3, 2, 1, 3, 1, 6, 3, 1), (4, 2, 1, 4, 1, 6, 3, 2)");
   const StoredSession session = Database();
   ASSERT_EQ(session.runs.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(session.runs[static_cast<std::size_t>(i)].trial, i + 1);
   EXPECT_TRUE(warnings_.empty());
   // A log that was added twice.
-  std::filesystem::remove(folder_ / "own.db");
-  Fill(experiment + "(2, 'box', 5, 'host', 'OMPL 1.6', 'today');" + runs +
-       "(3, 2, 1, 1, 1, 6, 3, 1), (4, 2, 1, 2, 1, 6, 3, 2);");
+  fill("today", "(3, 2, 1, 1, 1, 6, 3, 1), (4, 2, 1, 2, 1, 6, 3, 2)");
   EXPECT_EQ(Database().runs.size(), 2u);
   EXPECT_THAT(warnings_, testing::ElementsAre(testing::HasSubstr("1 of its experiments repeat")));
   // What cannot be told apart.
-  std::filesystem::remove(folder_ / "own.db");
-  Fill(experiment + "(2, 'box', 5, 'host', 'OMPL 1.6', 'tomorrow');" + runs +
-       "(3, 1, 1, 3, 1, 6, 3, 2);");
+  fill("tomorrow", "(3, 1, 1, 3, 1, 6, 3, 2)");
   ExpectInputError([&] { Database(); }, {"own.db: run 3 of experiment 1: trial: 'PRM' has trial 2 "
                                          "of problem 1 of 'box'",
                                          "twice"});
