@@ -13,13 +13,42 @@
 namespace planbench {
 namespace {
 
-/// Sign of where (x, y) stands against the edge between two points in the xy-plane, if the edge
-/// spans y: +1 if the edge passes at a greater x, else 0. The ends are ordered first, so that
-/// triangles sharing an edge agree to the last bit and a ray cannot slip between them.
-bool PassesRightOf(double x, double y, Eigen::Vector3d from, Eigen::Vector3d to) {
-  if ((from.y() > y) == (to.y() > y)) return false;
+/// Where the plane of a y cuts an edge.
+struct Cut {
+  double x = 0;
+  double z = 0;
+};
+
+/// Of an edge that spans the y. The ends are ordered first, so that triangles sharing an edge agree
+/// to the last bit and a ray cannot slip between them. x is between theirs, so that the grid has
+/// the edge's triangles in the cell of it.
+Cut CutAt(double y, Eigen::Vector3d from, Eigen::Vector3d to) {
   if (LexicographicLess(to, from)) std::swap(from, to);
-  return x < from.x() + (y - from.y()) / (to.y() - from.y()) * (to.x() - from.x());
+  const double share = (y - from.y()) / (to.y() - from.y());
+  return {std::min(from.x() + share * (to.x() - from.x()), to.x()),
+          from.z() + share * (to.z() - from.z())};
+}
+
+/// 1 if the ray along +z from the point passes the triangle from its back to its front, -1 the
+/// other way, 0 if it does not. Where the ray passes an edge or vertex so closely that rounding
+/// decides which triangles it meets, these still count for one another, since all have the edge's
+/// one cut, and each is met between its own cuts. So they are met within rounding of the surface,
+/// however thin or edge-on they are, and no point further from it is told wrongly.
+int Crossing(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+             const Eigen::Vector3d& c) {
+  const Eigen::Vector3d* const corners[] = {&a, &b, &c, &a};
+  Cut rising, falling;  // The edges that span y: one of either, or none.
+  for (int k = 0; k < 3; ++k) {
+    const bool rises = corners[k + 1]->y() > point.y();
+    if ((corners[k]->y() > point.y()) == rises) continue;
+    (rises ? rising : falling) = CutAt(point.y(), *corners[k], *corners[k + 1]);
+  }
+  const bool upwards = point.x() < rising.x;
+  if (upwards == (point.x() < falling.x)) return 0;
+  const double share = (point.x() - falling.x) / (rising.x - falling.x);
+  const double height = falling.z + share * (rising.z - falling.z);
+  if (height <= point.z()) return 0;
+  return upwards ? 1 : -1;
 }
 
 }  // namespace
@@ -161,19 +190,10 @@ bool SolidMesh::Contains(const Eigen::Vector3d& point) const {
   bool odd = false;
   for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
     const Triangle& t = triangles_[cell_triangles_[i]];
-    const bool over = PassesRightOf(point.x(), point.y(), t.a, t.b) ^
-                      PassesRightOf(point.x(), point.y(), t.b, t.c) ^
-                      PassesRightOf(point.x(), point.y(), t.c, t.a);
-    if (!over) continue;
-    const Eigen::Vector3d normal = (t.b - t.a).cross(t.c - t.a);
-    if (normal.z() == 0) continue;  // seen edge-on
-    const double height =
-        t.a.z() -
-        (normal.x() * (point.x() - t.a.x()) + normal.y() * (point.y() - t.a.y())) / normal.z();
-    if (height <= point.z()) continue;
+    const int crossing = Crossing(point, t.a, t.b, t.c);
     if (t.oriented) {
-      winding += normal.z() > 0 ? 1 : -1;
-    } else {
+      winding += crossing;
+    } else if (crossing != 0) {
       odd = !odd;
     }
   }

@@ -2,14 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include "geometry/polyhedra.h"
+#include "tests/support/trials.h"
 
 namespace planbench {
 namespace {
@@ -151,6 +155,54 @@ TEST(SolidMeshTest, RaysThroughEdgesAndVerticesCountOnce) {
         const double off_surface = std::abs(x) + std::abs(y) + std::abs(z) - 1;
         if (std::abs(off_surface) < 1e-9) continue;
         EXPECT_EQ(solid.Contains({x, y, z}), off_surface < 0) << x << " " << y << " " << z;
+      }
+    }
+  }
+}
+
+/// A turned box of whose edges, of sides and within them, some are split for one triangle alone,
+/// with slivers between; points are above and below its edges and vertices.
+TEST(SolidMeshTest, RaysThroughSplitEdgesCountOnce) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const std::vector<Eigen::Vector3d> axes = {
+      Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), {0.48, 0.6, 0.64}};
+  for (int trial = 0; trial < Trials(300); ++trial) {
+    const double length = 0.1 + 3 * unit(random);
+    const Eigen::Vector3d size(length, 1, 0.3);
+    const double angle = 6 * unit(random);
+    const Eigen::AngleAxisd turn(angle, axes[static_cast<std::size_t>(trial) % axes.size()]);
+    TriangleMesh mesh = BoxMesh(size);
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = turn * vertex;
+    std::vector<std::array<std::uint32_t, 3>> slivers;
+    for (int i = 0; i < 8; ++i) {
+      auto& triangle = mesh.triangles[random() % mesh.triangles.size()];
+      const auto [a, b, c] = triangle;
+      const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+      const double share = 0.25 + 0.5 * unit(random);
+      mesh.vertices.emplace_back(mesh.vertices[a] + share * (mesh.vertices[b] - mesh.vertices[a]));
+      triangle = {b, c, middle};  // so that all edges have their turn
+      mesh.triangles.push_back({c, a, middle});
+      slivers.push_back({a, b, middle});
+    }
+    mesh.triangles.insert(mesh.triangles.end(), slivers.begin(), slivers.end());
+    const SolidMesh solid(mesh);
+    ASSERT_EQ(solid.survey().open + solid.survey().not_oriented, 0);
+    ASSERT_NEAR(solid.survey().volume, size.prod(), 1e-12);
+    for (const auto& triangle : mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Eigen::Vector3d& from = mesh.vertices[triangle[k]];
+        const Eigen::Vector3d& to = mesh.vertices[triangle[(k + 1) % 3]];
+        const double share = std::min(1.0, 1.2 * unit(random));
+        for (const double above : {-2.0, -0.3, -0.01, -1e-6, 1e-6, 0.01, 0.3, 2.0}) {
+          const Eigen::Vector3d point =
+              from + share * (to - from) + above * Eigen::Vector3d::UnitZ();
+          const Eigen::Vector3d in_box = turn.inverse() * point;
+          const double off_surface = (in_box.cwiseAbs() - size / 2).maxCoeff();
+          if (std::abs(off_surface) < 1e-9) continue;
+          EXPECT_EQ(solid.Contains(point), off_surface < 0)
+              << "trial " << trial << ": " << point.transpose();
+        }
       }
     }
   }
