@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "common/disjoint_sets.h"
@@ -13,11 +14,51 @@ namespace {
 
 using Corner = std::uint32_t;
 using Ends = std::pair<Corner, Corner>;
+using Corners = std::array<Corner, 3>;
+
+std::array<Ends, 3> EdgesOf(const Corners& t) {
+  return {std::minmax(t[0], t[1]), std::minmax(t[1], t[2]), std::minmax(t[2], t[0])};
+}
 
 /// The longest of all segments between ends of two that are on one line; nothing of others.
 std::optional<Segment> OnOneLine(const Segment& a, const Segment& b) {
   const std::optional<Segment> longest = AsLine(a.a, a.b, b.a);
   return longest ? AsLine(longest->a, longest->b, b.b) : std::nullopt;
+}
+
+/// Leaves out those of some triangles, by place in the surface, that have an edge on no line to
+/// themselves, and those that have one then.
+void LeaveOutLoose(const std::set<std::size_t>& places, const std::map<Ends, std::size_t>& line_of,
+                   std::vector<Corners>* surface) {
+  struct Sharers {
+    std::size_t count = 0;
+    std::size_t sum = 0;  // of their places: of one alone, which it is
+  };
+  std::map<Ends, Sharers> sharers;
+  for (std::size_t i = 0; i < surface->size(); ++i) {
+    for (const Ends& ends : EdgesOf((*surface)[i])) {
+      ++sharers[ends].count;
+      sharers[ends].sum += i;
+    }
+  }
+  std::vector<Ends> unshared;
+  const auto note = [&](const Ends& ends, const Sharers& of_it) {
+    if (of_it.count == 1 && !line_of.contains(ends)) unshared.push_back(ends);
+  };
+  for (const auto& [ends, of_it] : sharers) note(ends, of_it);
+  while (!unshared.empty()) {
+    const Sharers last = sharers.at(unshared.back());
+    unshared.pop_back();
+    if (last.count == 0 || !places.contains(last.sum)) continue;
+    for (const Ends& ends : EdgesOf((*surface)[last.sum])) {
+      Sharers& of_it = sharers.at(ends);
+      --of_it.count;
+      of_it.sum -= last.sum;
+      note(ends, of_it);
+    }
+    (*surface)[last.sum] = {};
+  }
+  std::erase(*surface, Corners{});
 }
 
 }  // namespace
@@ -31,18 +72,19 @@ std::optional<Segment> AsLine(const Eigen::Vector3d& a, const Eigen::Vector3d& b
   return longest;
 }
 
-std::vector<std::array<Corner, 3>> SurfaceTriangles(const TriangleMesh& mesh) {
-  std::vector<std::array<Corner, 3>> surface;
+std::vector<Corners> SurfaceTriangles(const TriangleMesh& mesh) {
+  std::vector<Corners> surface;
+  std::set<std::size_t> apart;                // Slivers in no row, by place in the surface.
   DisjointSets lines(mesh.triangles.size());  // Slivers that share edges, by place in the mesh.
   std::map<std::size_t, Segment> extents;     // Of a line, by its root.
   std::map<Ends, std::size_t> line_of;        // Of each edge of slivers, any of the line.
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    const std::array<Ends, 3> edges = {std::minmax(t[0], t[1]), std::minmax(t[1], t[2]),
-                                       std::minmax(t[2], t[0])};
+    const std::array<Ends, 3> edges = EdgesOf(t);
     std::optional<Segment> extent =
         AsLine(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    const bool is_sliver = extent.has_value();
     for (const Ends& ends : edges) {
       if (!extent) break;
       const auto line = line_of.find(ends);
@@ -50,6 +92,7 @@ std::vector<std::array<Corner, 3>> SurfaceTriangles(const TriangleMesh& mesh) {
       extent = OnOneLine(*extent, extents.at(lines.Root(line->second)));
     }
     if (!extent) {
+      if (is_sliver) apart.insert(surface.size());
       surface.push_back(t);
       continue;
     }
@@ -57,6 +100,7 @@ std::vector<std::array<Corner, 3>> SurfaceTriangles(const TriangleMesh& mesh) {
     extents.emplace(i, *extent);
   }
   if (extents.empty()) return surface;
+  if (!apart.empty()) LeaveOutLoose(apart, line_of, &surface);
   DisjointSets parts(mesh.vertices.size());
   for (const auto& [a, b, c] : surface) {
     parts.Join(a, b);

@@ -18,9 +18,11 @@ std::optional<Segment> AsLine(const Eigen::Vector3d& a, const Eigen::Vector3d& b
 
 /// The triangles of a mesh that say what it encloses: those that have an area, and slivers (AsLine)
 /// in the place of those that are there. These, of which those that share edges are in a row, tell
-/// what edges are on one line (one that is in no row with its neighbours stays); each such edge
-/// gets a sliver to one corner on it for all of a part. So what any slivers there can close is
-/// closed, by those that its orientation needs, and nothing is opened. Vertices must be joined.
+/// what edges are on one line; each such edge gets a sliver to one corner on it for all of a part.
+/// So what any slivers there can close is closed, by those that its orientation needs, and nothing
+/// is opened. A sliver that is in no row with its neighbours, as in the walls of a film, is there
+/// as it stands and closes what it does, unless one of its edges is its alone (others left out
+/// likewise do not count) and on no line: no surface with it is closed. Vertices must be joined.
 std::vector<std::array<std::uint32_t, 3>> SurfaceTriangles(const TriangleMesh& mesh);
 
 }  // namespace planbench

@@ -142,6 +142,45 @@ TEST(SolidMeshTest, AFilmIsOpenWithoutOneSide) {
   EXPECT_FALSE(SolidMesh(film).has_inside());
 }
 
+/// They share their short edges, so that they are in no row.
+TEST(SolidMeshTest, FansOfNeedlesOpenNone) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto near = [&](const Eigen::Vector3d& middle, double reach) {
+    Eigen::Vector3d point = middle;
+    for (int axis = 0; axis < 3; ++axis) point[axis] += reach * coordinate(random);
+    return point;
+  };
+  for (int trial = 0; trial < Trials(100); ++trial) {
+    const bool is_film = trial % 2 == 0;
+    TriangleMesh mesh = BoxMesh({2, 2, is_film ? 1e-7 : 2});
+    // A strip from a wall of the film, or a corner of the cube, with others from its sides.
+    std::uint32_t a = 0;
+    std::uint32_t b = 8;
+    if (is_film) {
+      b = 4;  // above it
+    } else {
+      mesh.vertices.push_back(near(mesh.vertices[a], 1e-8));
+    }
+    for (int i = 0; i < 6; ++i) {
+      const auto tip = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(near(mesh.vertices[a] + Eigen::Vector3d(2, 0, 0), 1));
+      mesh.triangles.push_back({a, b, tip});
+      if (random() % 2 == 0) continue;
+      mesh.vertices.push_back(near(mesh.vertices[tip], 1e-8));
+      mesh.triangles.push_back({tip, b, tip + 1});
+      a = tip;
+      b = tip + 1;
+    }
+    std::ranges::shuffle(mesh.triangles, random);
+    const SolidMesh solid(mesh);
+    EXPECT_EQ(solid.survey().components, 1);
+    EXPECT_EQ(solid.survey().open, 0);
+    EXPECT_EQ(solid.survey().not_oriented, 0);
+    EXPECT_TRUE(solid.Contains(kHere));
+  }
+}
+
 TEST(SolidMeshTest, RaysThroughEdgesAndVerticesCountOnce) {
   // An octahedron: the ray along z meets its tip, its edges and, from the side, its rim.
   TriangleMesh mesh;
