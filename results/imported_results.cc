@@ -28,33 +28,27 @@ std::string Beginning(const std::filesystem::path& file) {
   return bytes;
 }
 
-/// Whether there was a path when the time limit came, as far as is told: a search that ended later
-/// may have gone on to improve one.
-bool IsInTime(const StoredRun& run) {
-  if (run.time_limit_s == 0 || !IsLate(*run.time_s, run.time_limit_s)) return true;
-  return !run.progress.empty() && !IsLate(run.progress.front().elapsed_s, run.time_limit_s);
-}
-
-/// Of what the file calls solved, what would not be here is not; a path in hand when the limit came
-/// is, with the limit as its time. `warnings` gets a line for each kind.
+/// Of what the file calls solved, what would not be here is not. `warnings` gets a line for each
+/// kind.
 void JudgeTimes(const std::string& file, std::vector<StoredRun>* runs,
                 std::vector<std::string>* warnings) {
   int num_late = 0, num_untold = 0;
   for (StoredRun& run : *runs) {
     if (!run.confirmed()) continue;
+    const bool has_limit = run.time_limit_s > 0;
     if (!run.time_s) {
       run.status = PlanStatus::kTimedOut;
       run.message = "solved, but in a time that is not told";
       ++num_untold;
-    } else if (!IsInTime(run)) {
+    } else if (has_limit && IsLate(*run.time_s, run.time_limit_s)) {
       run.status = PlanStatus::kTimedOut;
       run.message = fmt::format("solved after {} s, beyond the time limit of {} s", *run.time_s,
                                 run.time_limit_s);
       ++num_late;
-    } else if (run.time_limit_s > 0 && *run.time_s > run.time_limit_s) {
-      const double overrun_s = *run.time_s - run.time_limit_s;
+    } else if (has_limit) {
+      const double overrun_s = run.total_time_s - run.time_limit_s;
       if (overrun_s > kMuchTime_s) run.odd_times_s[kOverrunIndex] = overrun_s;
-      run.time_s = run.time_limit_s;
+      run.time_s = std::min(*run.time_s, run.time_limit_s);
     }
   }
   const auto tell = [&](int number, const char* one, const char* several) {

@@ -50,6 +50,10 @@ std::vector<Property> LoggedProperties() {
   };
   return {
       {"time", "REAL", [](const StoredRun& run) { return Text(run.time_s); }},
+      {"total time", "REAL",
+       [](const StoredRun& run) {
+         return run.time_s ? Text(std::max(run.total_time_s, *run.time_s)) : "";
+       }},
       {"solved", "BOOLEAN", [](const StoredRun& run) { return Flag(run.confirmed()); }},
       {"status", "ENUM",
        [](const StoredRun& run) { return fmt::format("{}", static_cast<int>(run.status)); }},

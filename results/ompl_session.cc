@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -130,6 +131,9 @@ StoredRun& OmplSession::AddRun(std::size_t contestant, std::int64_t experiment_i
   SetStatus(statuses, properties, &run);
   run.time_limit_s = time_limit_s;
   run.time_s = FindAmount(properties, "time");
+  const auto total_time_s = FindAmount(properties, "total_time");
+  run.total_time_s = total_time_s.value_or(run.time_s.value_or(0));
+  tells_total_.push_back(total_time_s.has_value());
   const auto measure = [&](const std::string& property, const char* name, MeasuredValues* values) {
     // A clearance below zero is how deep a path goes.
     const bool is_signed = std::string_view(name) == "clearance";
@@ -163,6 +167,7 @@ StoredSession OmplSession::Take(const std::filesystem::path& file,
         "{}: {} runs have a status that no list names: they are solved if solved says so",
         file.string(), num_unnamed_));
   }
+  CountToFirstSolutions(file, warnings);
   const bool several = session_.contestants.size() > 1;
   std::map<std::string, int> num_named, numbers;
   for (const StoredContestant& one : session_.contestants) ++num_named[one.name];
@@ -173,6 +178,26 @@ StoredSession OmplSession::Take(const std::filesystem::path& file,
     if (num_named[planner] > 1) one.name += fmt::format(" #{}", ++numbers[planner]);
   }
   return std::move(session_);
+}
+
+void OmplSession::CountToFirstSolutions(const std::filesystem::path& file,
+                                        std::vector<std::string>* warnings) {
+  int num_untold = 0;
+  for (std::size_t i = 0; i < session_.runs.size(); ++i) {
+    StoredRun& run = session_.runs[i];
+    if (!run.claimed || tells_total_[i]) continue;
+    if (!run.progress.empty()) {
+      const double first_s = run.progress.front().elapsed_s;
+      run.time_s = std::min(run.time_s.value_or(first_s), first_s);
+    } else if (run.time_s) {
+      ++num_untold;
+    }
+  }
+  if (num_untold == 0) return;
+  warnings->push_back(fmt::format(
+      "{}: of {} of its paths no cost over time is told: as planning time the whole search counts, "
+      "though an anytime planner's goes on after its first solution",
+      file.string(), num_untold));
 }
 
 /// An experiment's trials stay those that it calls so where no other experiment has them.

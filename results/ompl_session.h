@@ -21,7 +21,10 @@ namespace planbench {
 // counts where it contradicts "status", which a warning tells. The problem of a run is that of its
 // properties "problem set", "problem index" and "trial", if there are such; else an experiment is a
 // problem: SET/3 is problem 3 of SET, any other name the first problem of a set of its own, and the
-// runs of a planner are its trials.
+// runs of a planner are its trials. "time" is that of the whole search; planning ends with the
+// first sample of the progress that has a cost, if that is earlier; without one a warning tells
+// that the whole counts. Of a run that has "total time", too, as in our logs, "time" is the
+// planning time.
 
 /// Of a run, by name with '_' for spaces; those without a value are absent.
 using OmplProperties = std::map<std::string, std::string>;
@@ -73,6 +76,8 @@ class OmplSession {
     std::set<std::pair<int, Direction>> made;
   };
 
+  /// Planning times, once all progress is there.
+  void CountToFirstSolutions(const std::filesystem::path& file, std::vector<std::string>* warnings);
   void SetTrial(std::int64_t experiment_id, const OmplProperties& properties, StoredRun* run);
   void SetStatus(const OmplStatuses& statuses, const OmplProperties& properties, StoredRun* run);
 
@@ -80,6 +85,7 @@ class OmplSession {
   StoredSession session_;
   int num_contradictions_ = 0;
   int num_unnamed_ = 0;
+  std::vector<bool> tells_total_;  ///< Of each run, whether it tells a total time, too.
   /// By contestant, set and problem.
   std::map<std::tuple<std::size_t, std::string, int>, Trials> trials_;
 };

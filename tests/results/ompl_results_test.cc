@@ -34,6 +34,9 @@ constexpr char kLog[] =
 
 constexpr char kExperiment[] = "(1, 'box', 5, 'host', 'OMPL 1.6', 'today')";
 
+/// What is said of paths whose planner may be an anytime one.
+auto TellsOfWholeSearches() { return testing::HasSubstr("no cost over time is told"); }
+
 class OmplResultsTest : public testing::Test {
  protected:
   StoredSession Log(const std::string& text) {
@@ -114,10 +117,10 @@ TEST_F(OmplResultsTest, APathIsInTimeIfItWasInHandWhenTheLimitCame) {
   const StoredSession session = Log(log);
   const std::vector<StoredRun>& runs = session.runs;
   EXPECT_EQ(runs[0].status, PlanStatus::kSolved);
-  EXPECT_EQ(runs[0].time_s, 1.5) << "as of our own planners";
+  EXPECT_EQ(runs[0].time_s, 0.2) << "to the first solution, as of our own planners";
   EXPECT_FALSE(OwesToOverrun(runs[0].odd_times_s));
   EXPECT_EQ(runs[1].status, PlanStatus::kSolved);
-  EXPECT_EQ(runs[1].time_s, 1.5);
+  EXPECT_EQ(runs[1].time_s, 0.2);
   EXPECT_TRUE(OwesToOverrun(runs[1].odd_times_s)) << "by 1.5 s";
   EXPECT_EQ(runs[2].status, PlanStatus::kTimedOut);
   EXPECT_TRUE(runs[2].claimed);
@@ -139,6 +142,33 @@ TEST_F(OmplResultsTest, APathIsInTimeIfItWasInHandWhenTheLimitCame) {
             PlanStatus::kTimedOut);
   EXPECT_EQ(ImportResults(folder_ / "own.log", "OMPL", 0, &warnings_).runs[2].status,
             PlanStatus::kSolved);
+}
+
+TEST_F(OmplResultsTest, PlanningEndsWithTheFirstSolutionIfProgressTellsIt) {
+  std::string log = kLog;
+  const auto replace = [&](const std::string& text, const std::string& by) {
+    log.replace(log.find(text), text.size(), by);
+  };
+  replace("0.01; 1; 6", "1.4; 1; 6");
+  replace("0.02; 1; 6; 3.5; inf; 0", "0.15; 1; 6; 3.5; inf; 1");
+  replace("1.5; 1; 5; 9", "1.4; 1; 6; 9");  // without progress
+  replace("1.5; 0; 4; ", "1.5; 0; 5; ");
+  replace("0.2,6,;\n\n\n", "0.2,6,;\n\n0.3,7,;\n");
+  const std::vector<StoredRun> runs = Log(log).runs;
+  EXPECT_EQ(runs[0].time_s, 0.2) << "the first sample with a finite cost";
+  EXPECT_EQ(runs[0].total_time_s, 1.4);
+  EXPECT_EQ(runs[1].time_s, 0.15) << "it ended before the sample";
+  EXPECT_EQ(runs[2].time_s, 1.4);
+  EXPECT_EQ(runs[3].time_s, 1.5) << "no path came of it";
+  EXPECT_THAT(warnings_,
+              testing::ElementsAre(testing::HasSubstr("own.log: of 1 of its paths no cost"),
+                                   testing::HasSubstr("1 solved run has no time")));
+  // Who tells a total time as well, as we do, tells in `time` when planning ended.
+  warnings_.clear();
+  replace("solution length REAL", "total time REAL");
+  EXPECT_EQ(Log(log).runs[0].time_s, 1.4);
+  EXPECT_EQ(Log(log).runs[0].total_time_s, 3.25);
+  EXPECT_TRUE(OwesToOverrun(Log(log).runs[0].odd_times_s)) << "by 1.75 s";
 }
 
 TEST_F(OmplResultsTest, ADamagedLogIsRefusedByLine) {
@@ -215,8 +245,12 @@ TEST_F(OmplResultsTest, ADatabasesProgressIsThatOfItsLog) {
   EXPECT_EQ(progress[1].elapsed_s, 0.4);
   EXPECT_EQ(progress[1].cost, 4);
   EXPECT_TRUE(session.runs[0].confirmed()) << "in hand when the limit came";
+  EXPECT_EQ(session.runs[0].time_s, 0.2);
+  EXPECT_EQ(session.runs[0].total_time_s, 5.01);
   EXPECT_TRUE(session.runs[1].progress.empty());
-  EXPECT_TRUE(warnings_.empty());
+  EXPECT_EQ(session.runs[1].time_s, 1);
+  EXPECT_THAT(warnings_,
+              testing::ElementsAre(testing::HasSubstr("own.db: of 1 of its paths no cost")));
   SqliteConnection(folder_ / "own.db", SqliteConnection::Mode::kReadWriteCreate)
       .Execute("UPDATE progress SET time = -1 WHERE iterations = 9");
   ExpectInputError([&] { Database(); }, {"own.db: run 3 of experiment 1: time: -1 is negative"});
@@ -240,7 +274,7 @@ TEST_F(OmplResultsTest, AStatusIsOfTheListOfTheProgramThatWroteIt) {
     EXPECT_EQ(session.runs[1].message, "Approximate solution");
     EXPECT_EQ(session.runs[2].status, PlanStatus::kSolved);
     EXPECT_EQ(session.runs[3].status, PlanStatus::kExhausted);
-    EXPECT_TRUE(warnings_.empty());
+    EXPECT_THAT(warnings_, testing::Each(TellsOfWholeSearches()));
   }
 }
 
@@ -256,7 +290,8 @@ TEST_F(OmplResultsTest, WhatSolvedSaysCountsWhereTheStatusContradictsIt) {
   EXPECT_EQ(session.runs[3].status, PlanStatus::kTimedOut);
   EXPECT_EQ(session.runs[3].message, "status 77, which no list names");
   EXPECT_THAT(warnings_, testing::ElementsAre(testing::HasSubstr("contradict each other in 2 runs"),
-                                              testing::HasSubstr("2 runs have a status that no")));
+                                              testing::HasSubstr("2 runs have a status that no"),
+                                              TellsOfWholeSearches()));
 }
 
 TEST_F(OmplResultsTest, APlannerWithTwoSettingsIsTwoContestants) {
@@ -281,11 +316,13 @@ TEST_F(OmplResultsTest, TrialsOfSeveralExperimentsAreAllKept) {
   const StoredSession session = Database();
   ASSERT_EQ(session.runs.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(session.runs[static_cast<std::size_t>(i)].trial, i + 1);
-  EXPECT_TRUE(warnings_.empty());
+  EXPECT_THAT(warnings_, testing::ElementsAre(TellsOfWholeSearches()));
+  warnings_.clear();
   // A log that was added twice.
   fill("today", "(3, 2, 1, 1, 1, 6, 3, 1), (4, 2, 1, 2, 1, 6, 3, 2)");
   EXPECT_EQ(Database().runs.size(), 2u);
-  EXPECT_THAT(warnings_, testing::ElementsAre(testing::HasSubstr("1 of its experiments repeat")));
+  EXPECT_THAT(warnings_, testing::ElementsAre(testing::HasSubstr("1 of its experiments repeat"),
+                                              TellsOfWholeSearches()));
   // What cannot be told apart.
   fill("tomorrow", "(3, 1, 1, 3, 1, 6, 3, 2)");
   ExpectInputError([&] { Database(); }, {"own.db: run 3 of experiment 1: trial: 'PRM' has trial 2 "
@@ -323,6 +360,7 @@ TEST_F(OmplResultsTest, ALogOfOursComesBackAsItWas) {
     EXPECT_EQ(after.status, before.status);
     EXPECT_EQ(after.claimed, before.claimed);
     EXPECT_EQ(after.time_s, before.time_s);
+    EXPECT_EQ(after.total_time_s, before.total_time_s);
     EXPECT_EQ(after.measures, before.measures);
     EXPECT_EQ(after.measures_simple, before.measures_simple);
     EXPECT_EQ(after.simplified_valid, before.simplified_valid);
