@@ -102,10 +102,8 @@ Finding BufferFinding(const MulticastAddress& address, const std::string& url) {
   return {Kind::kGood, fmt::format("receive buffer: {} bytes", address.receive_buffer_bytes), ""};
 }
 
-Finding ReachFinding(const std::string& url) {
-  const std::size_t at = url.find("ttl=");
-  const bool stays = at != std::string::npos && url.compare(at + 4, 1, "0") == 0;
-  if (stays) return {Kind::kGood, "reach: ttl=0, messages stay on this machine", ""};
+Finding ReachFinding(const MulticastAddress& address) {
+  if (address.ttl == 0) return {Kind::kGood, "reach: ttl=0, messages stay on this machine", ""};
   return {Kind::kNote, "reach: messages leave this machine, and others' are heard",
           "put ttl=0 into the URL, unless processes run on several machines"};
 }
@@ -244,7 +242,7 @@ std::vector<Finding> Diagnose(const DiagnosisOptions& options) {
     return {{Kind::kFault, error.what(), "see above: nothing else can be looked at before that"}};
   }
   findings.push_back({Kind::kGood, fmt::format("route: {} can be joined", options.lcm_url), ""});
-  findings.push_back(ReachFinding(options.lcm_url));
+  findings.push_back(ReachFinding(address));
   findings.push_back(BufferFinding(address, options.lcm_url));
 
   const std::string own_channel = fmt::format("BUS_DOCTOR_{}", getpid());

@@ -116,7 +116,8 @@ MulticastAddress MulticastAddress::Parse(const std::string& url) {
     if (const auto bytes = OptionNumber(url, option, "recv_buf_size", kMostBufferBytes)) {
       address.receive_buffer_bytes = *bytes;
     }
-    OptionNumber(url, option, "ttl", kMostHops);  // LCM's, which warns and goes on with its own
+    // LCM's, which warns of what is none and goes on with its own.
+    if (const auto hops = OptionNumber(url, option, "ttl", kMostHops)) address.ttl = *hops;
   }
   return address;
 }

@@ -15,11 +15,12 @@ namespace planbench {
 /// What a scene of some ten thousand objects needs.
 inline constexpr int kReceiveBufferBytes = 4 << 20;
 
-/// Where an LCM bus is: the parts of an udpm:// URL that a receiver needs.
+/// What an udpm:// URL says of an LCM bus.
 struct MulticastAddress {
   std::string group = "239.255.76.67";
   std::uint16_t port = 7667;
   int receive_buffer_bytes = kReceiveBufferBytes;  ///< Of the socket; 0: the system's default.
+  int ttl = 0;  ///< Hops that what is sent may take, as LCM has it; 0: none leaves this machine.
 
   /// Throws InputError for anything but udpm://[GROUP[:PORT]][?OPTION=VALUE[&...]], and for values
   /// of recv_buf_size and ttl that a socket cannot have.

@@ -42,7 +42,9 @@ TEST(Diagnosis, OfAQuietBusFindsNoFault) {
 }
 
 TEST(Diagnosis, NamesWhatTheUrlLacks) {
-  const std::string bare = "udpm://239.255.76.67:" + std::to_string(FreeUdpPort()) + "?ttl=1";
+  const std::string port = "udpm://239.255.76.67:" + std::to_string(FreeUdpPort());
+  EXPECT_EQ(Of(Look(port), "reach").kind, Kind::kGood) << "LCM's own default stays here";
+  const std::string bare = port + "?ttl=1";
   const std::vector<Finding> findings = Look(bare);
   EXPECT_EQ(Of(findings, "reach").kind, Kind::kNote);
   EXPECT_THAT(Of(findings, "reach").mend, HasSubstr("ttl=0"));
