@@ -96,7 +96,11 @@ void LoggerNode::Write() {
   try {
     while (true) {
       const std::optional<ReceivedMessage> message = queue_.Pop(kPatience);
-      if (message) Persist([&] { recorder_.Record(*message); });
+      if (message) {
+        // Each until it succeeds: what is tried again must not be logged again.
+        Persist([&] { recorder_.Log(*message); });
+        Persist([&] { recorder_.Enter(*message); });
+      }
       if (!queue_.empty()) continue;
       Persist([&] { recorder_.Flush(); });
       if (queue_.closed()) return;

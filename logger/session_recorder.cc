@@ -13,6 +13,16 @@
 #include "results/bus_json.h"
 
 namespace planbench {
+namespace {
+
+/// Where a message is acknowledged; null: it is not.
+const char* AckChannel(const ReceivedMessage& message) {
+  if (message.channel == channel::kRunRecord) return channel::kRunRecordAck;
+  if (message.channel == channel::kSession) return channel::kSessionAck;
+  return nullptr;
+}
+
+}  // namespace
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& folder, bool resume,
                                  std::string sender, Acknowledge acknowledge,
@@ -52,26 +62,24 @@ void SessionRecorder::Restore() {
 }
 
 void SessionRecorder::Record(const ReceivedMessage& message) {
+  Log(message);
+  Enter(message);
+}
+
+void SessionRecorder::Log(const ReceivedMessage& message) {
   event_log_.Write(message);
+  // Before it is stored: wherever the process is killed, the database holds nothing that the log
+  // lacks.
+  if (AckChannel(message) != nullptr) Flush();
   ++tally_.events;
-  const char* ack_channel = message.channel == channel::kRunRecord ? channel::kRunRecordAck
-                            : message.channel == channel::kSession ? channel::kSessionAck
-                                                                   : nullptr;
+}
+
+void SessionRecorder::Enter(const ReceivedMessage& message) {
+  const char* ack_channel = AckChannel(message);
   if (ack_channel == nullptr) return;
-  // First the log: wherever the process is killed, the database holds nothing that the log lacks.
-  Flush();
   std::string id;
-  std::string refusal;
-  try {
-    refusal = Store(message, &id);
-    if (refusal.empty() && message.channel == channel::kSession) DescribeSessions();
-  } catch (const SqliteError& error) {
-    if (error.kind() != SqliteError::Kind::kBusy) throw;
-    // The sender repeats what is not acknowledged.
-    ++tally_.failures;
-    spdlog::error("{} '{}' not stored: {}", message.channel, id, error.what());
-    return;
-  }
+  const std::string refusal = Store(message, &id);
+  if (refusal.empty() && message.channel == channel::kSession) DescribeSessions();
   folder_.RequireThere();
   if (refusal.empty()) {
     acknowledge_(ack_channel, AckMessage{id, sender_, true, ""});

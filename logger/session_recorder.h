@@ -37,14 +37,19 @@ class SessionRecorder {
                   Acknowledge acknowledge, Contradictions* contradictions,
                   std::optional<std::uintmax_t> split_bytes = {});
 
-  /// Records one message. Acknowledges a run record or session once the event log is flushed and
-  /// the database committed, or with ok = false if it can never be stored. Throws
-  /// std::runtime_error if the folder cannot be written (disk full, removed); then nothing is
-  /// acknowledged.
+  /// Log, then Enter.
   void Record(const ReceivedMessage& message);
-  /// Hands what was written to the operating system. Throws like Record.
+  /// Writes a message into the event log, flushed if there is more to do with it. Throws
+  /// std::runtime_error if the folder cannot be written (disk full, removed).
+  void Log(const ReceivedMessage& message);
+  /// Stores what was logged, if it is a run record or session, and acknowledges it once the
+  /// database is committed, or with ok = false if it can never be stored. Throws like Log, also
+  /// while another program keeps the database locked; then nothing is acknowledged, and it may be
+  /// called again.
+  void Enter(const ReceivedMessage& message);
+  /// Hands what was written to the operating system. Throws like Log.
   void Flush();
-  /// To be called after a failure, before the next message. Throws like Record.
+  /// To be called after a failure, before anything else. Throws like Log.
   void Recover();
 
   /// Logs what was recorded, and which sessions have fewer runs here than they tell of. `bus`: what

@@ -264,6 +264,28 @@ TEST(LoggerNode, GoesOnWhenTheFolderCanBeWrittenAgain) {
   EXPECT_EQ(CountRuns(temporary / "s" / "results.sqlite"), 1);
 }
 
+TEST(LoggerNode, WhatTheDatabaseTakesLaterIsLoggedOnce) {
+  const TemporaryFolder temporary;
+  const auto results = temporary / "s" / "results.sqlite";
+  Bus bus("memq://");
+  LoggerNode logger(&bus, {.out = temporary / "s"});
+  MessageCollector<NodeStatusMessage> statuses(&bus, channel::kNodeStatus);
+  MessageCollector<AckMessage> acks(&bus, channel::kRunRecordAck);
+  bus.Start();
+  SqliteConnection other(results, SqliteConnection::Mode::kReadWriteCreate);
+  other.Execute("ALTER TABLE runs RENAME TO runs_elsewhere");
+  bus.Publish(channel::kRunRecord, SampleRecord());
+  EXPECT_TRUE(statuses.WaitForOne([](const NodeStatusMessage& status) {
+    return status.trouble.find("no such table") != std::string::npos;
+  }));
+  EXPECT_TRUE(acks.messages().empty());
+  other.Execute("ALTER TABLE runs_elsewhere RENAME TO runs");
+  EXPECT_EQ(acks.WaitFor(1).size(), 1);
+  EXPECT_TRUE(logger.Run(Now));
+  EXPECT_EQ(CountRuns(results), 1);
+  EXPECT_EQ(LoggedChannels(temporary / "s" / "s.lcmlog").count(channel::kRunRecord), 1);
+}
+
 TEST(LoggerNode, TakesRecordsFromTheDriverAlone) {
   const TemporaryFolder temporary;
   const std::string url = PrivateUdpUrl();
