@@ -1,8 +1,10 @@
 #include "logger/rebuild.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "common/file_kind.h"
@@ -13,6 +15,15 @@
 
 namespace planbench {
 namespace {
+
+/// Whether the log is in the folder that it is to be added to: it would grow by what is read of it,
+/// without end.
+bool IsAddedToItself(const std::filesystem::path& event_log, const LoggerOptions& options) {
+  if (!options.resume) return false;
+  std::error_code ignored;  // a folder that is yet to be made
+  return std::filesystem::equivalent(std::filesystem::canonical(event_log).parent_path(),
+                                     options.out, ignored);
+}
 
 /// What run.json tells of the bus of a log that is the one of its folder (results/bus_json.h).
 std::string BusOf(const std::filesystem::path& event_log) {
@@ -36,6 +47,12 @@ bool RebuildSession(const std::filesystem::path& event_log, const LoggerOptions&
   // Before a folder is made.
   if (!HoldsEvent(event_log)) {
     throw InputError(event_log.string() + ": there is no event of an LCM event log in it");
+  }
+  if (IsAddedToItself(event_log, options)) {
+    throw InputError(
+        fmt::format("{}: is that of --out itself; what the database there lacks of it "
+                    "is stored by logger --out {} --resume",
+                    event_log.string(), options.out.string()));
   }
   Contradictions contradictions;
   SessionRecorder recorder(

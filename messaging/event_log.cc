@@ -28,12 +28,17 @@ EventLogExtent Scan(const fs::path& file) {
   return ReadEventLogFile(file, [](const ReceivedMessage&) {});
 }
 
-/// Cuts off a torn last event; what is damaged before whole ones stays.
+/// Cuts off a torn last event; what is damaged before whole ones stays. Of a file that may be
+/// anything nothing is cut off.
 EventLogExtent PrepareToAppend(const fs::path& file) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error || size == 0) return {};
   const EventLogExtent extent = Scan(file);
+  if (extent.bytes == 0 && !BeginsAsEventLog(file)) {
+    throw InputError(file.string() +
+                     ": cannot be continued: there is no event of an LCM event log in it");
+  }
   if (extent.bytes < size) {
     spdlog::warn("{}: {} bytes after the last whole event cut off", file.string(),
                  size - extent.bytes);

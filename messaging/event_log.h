@@ -19,7 +19,7 @@ class EventLog {
     kNew,     ///< There must be no such file.
     kAppend,  ///< After the last whole event, if there is one; event numbers go on.
               ///< What a killed logger left of its last event is cut off, since it would swallow
-              ///< the next ones.
+              ///< the next ones. A file that is no event log is refused.
   };
   /// With `split_bytes`, no event is added to a file that has as many; the next one begins another,
   /// whose event numbers go on. Throws InputError if the file cannot be opened.

@@ -193,4 +193,10 @@ bool HoldsEvent(const std::filesystem::path& event_log) {
   });
 }
 
+bool BeginsAsEventLog(const std::filesystem::path& file) {
+  FileBytes bytes(file, kSyncWord.size());
+  const auto begin = bytes.From(0, kSyncWord.size());
+  return std::equal(begin.begin(), begin.end(), kSyncWord.begin());
+}
+
 }  // namespace planbench

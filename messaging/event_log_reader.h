@@ -41,6 +41,9 @@ std::vector<std::uint8_t> ReadEventBytes(const EventPlace& place);
 /// anything. Throws like ReadEventLog.
 bool HoldsEvent(const std::filesystem::path& event_log);
 
+/// Whether a file begins as an event log does, be it cut off within its first event.
+bool BeginsAsEventLog(const std::filesystem::path& file);
+
 /// What could be read of a file of an event log. Offsets and sizes are in bytes.
 struct EventLogExtent {
   std::int64_t next_number = 0;  ///< Of the event that comes next.

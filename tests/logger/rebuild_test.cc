@@ -119,6 +119,21 @@ TEST_F(RebuildTest, WhatCannotBeStoredIsAFailure) {
   EXPECT_FALSE(RebuildSession(Live({{channel::kRunRecord, {1, 2, 3}, 7}}), Options()));
 }
 
+TEST_F(RebuildTest, ALogIsNotAddedToItself) {
+  const auto log = Live({Received(channel::kSession, SampleSession())}, 1);
+  const std::string before = TextOf(log);
+  LoggerOptions options = Options();
+  options.out = temporary_ / "live" / "";
+  options.resume = true;
+  std::filesystem::create_symlink(log, temporary_ / "link.lcmlog");
+  for (const auto& file : {log, temporary_ / "link.lcmlog"}) {
+    ExpectInputError([&] { RebuildSession(file, options); }, {file.string(), "--out itself"});
+  }
+  EXPECT_EQ(TextOf(log), before);
+  options.out = temporary_ / "new";  // with --resume all the same
+  EXPECT_TRUE(RebuildSession(log, options));
+}
+
 TEST_F(RebuildTest, BadUseMakesNoFolder) {
   ExpectInputError([&] { RebuildSession(temporary_ / "none.lcmlog", Options()); },
                    {"none.lcmlog", "no such event log"});

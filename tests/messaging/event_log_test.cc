@@ -91,6 +91,24 @@ TEST(EventLog, CutsOffATornLastEvent) {
   }
 }
 
+TEST(EventLog, GoesOnInNoFileThatIsNone) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  // The second as gzip leaves it.
+  for (const std::string text : {"notes of mine", "\x1f\x8b\x08"}) {
+    folder.Write("a.lcmlog", text);
+    ExpectInputError([&] { EventLog(file, EventLog::Mode::kAppend); },
+                     {"a.lcmlog", "no event of an LCM event log"});
+    EXPECT_EQ(std::filesystem::file_size(file), text.size()) << "it stays as it was";
+  }
+  // All that a logger wrote before it was killed.
+  for (const std::string text : {"", "\xed\xa1", "\xed\xa1\xda\x01 and a part of its event"}) {
+    folder.Write("a.lcmlog", text);
+    EventLog(file, EventLog::Mode::kAppend).Write(Message("A", "whole", 1));
+    EXPECT_EQ(ReadEvents(file), (std::vector<Event>{{0, 1, "A", "whole"}}));
+  }
+}
+
 /// Of an event on a channel of one letter.
 constexpr std::uintmax_t kBeforeData = 28 + 1;
 
