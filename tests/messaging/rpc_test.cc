@@ -89,6 +89,20 @@ TEST_F(RpcServerTest, ForgetsTheOldestAnswers) {
   EXPECT_EQ(num_answers_, static_cast<int>(AnswerMemory::kCapacity) + 2);
 }
 
+TEST(AnswerMemory, HoldsNoMoreBytesThanItMayButTheLastAnswer) {
+  AnswerMemory answers(100);
+  const auto holds = [&](const char* id) { return answers.Find(id) != nullptr; };
+  answers.Add("a", std::vector<std::uint8_t>(50));
+  answers.Add("b", std::vector<std::uint8_t>(50));
+  EXPECT_TRUE(holds("a") && holds("b"));
+  answers.Add("c", std::vector<std::uint8_t>(1));
+  EXPECT_TRUE(!holds("a") && holds("b") && holds("c"));
+  EXPECT_EQ(answers.Add("d", std::vector<std::uint8_t>(101)).size(), 101u);
+  EXPECT_TRUE(!holds("b") && !holds("c") && holds("d"));
+  answers.Add("e", std::vector<std::uint8_t>(100));
+  EXPECT_TRUE(!holds("d") && holds("e"));
+}
+
 TEST_F(RpcServerTest, DoesNotQueueARequestTwice) {
   Send({"first", "slow", 1});
   ASSERT_TRUE(WaitUntil([&] { return num_answers_ == 1; }));
