@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -17,6 +16,7 @@
 
 #include "common/error.h"
 #include "common/file_state.h"
+#include "common/random_id.h"
 #include "geometry/meshes_in_use.h"
 
 namespace planbench {
@@ -154,10 +154,10 @@ std::string StoreMesh(const SharedMesh& mesh) {
   fs::create_directories(folder, error);
   if (error) throw InputError(fmt::format("{}: {}", folder.string(), error.message()));
 
-  // A name of its own for every writer: several processes and threads may store the same mesh.
-  static std::atomic<int> num_written{0};
+  // A name of its own for every writer: several threads, processes and, in a shared folder, hosts
+  // and containers of equal pids may store the same mesh.
   const fs::path temporary =
-      folder / fmt::format("{}.{}.{}.part", file.filename().string(), getpid(), ++num_written);
+      folder / fmt::format("{}.{}.part", file.filename().string(), RandomId());
   std::ofstream stream(temporary, std::ios::binary);
   stream << ToObj(mesh);
   stream.close();
