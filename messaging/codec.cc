@@ -20,7 +20,9 @@ void Decoder::Fail(const char* name, std::initializer_list<std::size_t> indices,
                    const std::string& what) const {
   std::string path = Path() + name;
   for (const std::size_t index : indices) path += fmt::format("[{}]", index);
-  throw MessageError(fmt::format("{}: {}: {}", channel_, path, what), request_id_);
+  // It may quote a text of megabytes, and is logged, remembered and sent back.
+  throw MessageError(
+      fmt::format("{}: {}: {}", channel_, path, Abridged(what, rules::Reason::kMost)), request_id_);
 }
 
 std::string Printer::TextOf(const std::string& text) {

@@ -115,7 +115,7 @@ void NodeAnnouncer::OnStatus(const NodeStatusMessage& other, const PacketSender&
   // A recording played back on this bus shows processes of the past: they do not displace anybody.
   constexpr std::int64_t kStaleAfterUs = 10'000'000;
   const bool is_established = std::chrono::steady_clock::now() >= established_;
-  if (is_established || NowUtime() - other.utime > kStaleAfterUs) {
+  if (is_established || other.utime < NowUtime() - kStaleAfterUs) {
     bus_->contradictions().Note(sender, channel::kNodeStatus,
                                 "claims to be the " + std::string(EnumName(other.kind)) + " '" +
                                     other.name + "', which this process is");

@@ -136,6 +136,10 @@ TEST_F(CodecValues, ReasonsAreCutAndOtherTextsRefusedIfTheyAreTooLong) {
   status.collision_models = {"spheres", std::string(rules::kLongestField + 1, 'v')};
   EXPECT_THAT(DecodeError<NodeStatusMessage>(Encode(status)).what(),
               testing::StartsWith("CH: collision_model[1]: 10000001 bytes"));
+  status.collision_models.assign(2, std::string(3'000'000, 'v'));
+  EXPECT_LE(std::string_view(DecodeError<NodeStatusMessage>(Encode(status)).what()).size(),
+            kMost + 100)
+      << "what an error quotes is cut, too";
 }
 
 TEST_F(CodecValues, InfinityIsADistance) {
