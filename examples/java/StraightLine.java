@@ -21,7 +21,7 @@ public class StraightLine implements LCMSubscriber {
 
   StraightLine(String name) throws Exception {
     this.name = name;
-    channel = name.toUpperCase().replace('-', '_');
+    channel = name.toUpperCase(Locale.ROOT).replace('-', '_');
     lcm.subscribe("NODE_STATUS|PROBLEM_SETS|DISCOVER|COLLISION_REPLY|PLAN_(REQUEST|CANCEL)_" + channel, this);
   }
 
@@ -34,8 +34,8 @@ public class StraightLine implements LCMSubscriber {
       else if (from.startsWith("PLAN_REQUEST_")) answer(new lcmt_plan_request(in));
       else if (from.equals("NODE_STATUS")) leaveToAnOlder(new lcmt_node_status(in));
       else send(results.get(cancelled = new lcmt_plan_cancel(in).request_id));
-    } catch (java.io.IOException error) {
-      System.err.println(from + ": " + error.getMessage());
+    } catch (Exception | OutOfMemoryError error) {  // of a damaged message, or it would end LCM's thread, which hears all
+      System.err.println(from + ": " + error);
     }
   }
 
