@@ -173,8 +173,13 @@ void PlannerNode::OnRequest(const PlanRequest& request, const PacketSender& send
 }
 
 void PlannerNode::OnBadRequest(const MessageError& error) {
-  if (error.request_id().empty()) throw error;
-  Acknowledge(error.request_id(), PlanAckVerdict::kRefused, error.what());
+  const std::string& id = error.request_id();
+  const std::scoped_lock lock(mutex_);
+  // Of a request that was taken a spoiled copy, which anybody can send who hears it, changes
+  // nothing.
+  const bool is_taken = (job_ && job_->request.request_id == id) || results_.Find(id) != nullptr;
+  if (id.empty() || is_taken) throw error;
+  Acknowledge(id, PlanAckVerdict::kRefused, error.what());
 }
 
 void PlannerNode::OnScene(SceneMessage message) {

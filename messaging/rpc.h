@@ -141,8 +141,12 @@ class RpcServer {
   }
 
   void OnBadRequest(const MessageError& error) {
-    if (error.request_id().empty()) throw error;
-    bus_->Publish(reply_channel_, Refusal(error.request_id(), error.what()));
+    const std::string& id = error.request_id();
+    const std::scoped_lock lock(mutex_);
+    // Of a request that was taken a spoiled copy, which anybody can send who hears it, is nothing.
+    const bool is_taken = pending_.count(id) > 0 || answers_.Find(id) != nullptr;
+    if (id.empty() || is_taken) throw error;
+    bus_->Publish(reply_channel_, Refusal(id, error.what()));
   }
 
   static Reply Refusal(const std::string& request_id, const std::string& why) {

@@ -312,6 +312,25 @@ TEST_F(PlannerNodeTest, RefusesAMalformedRequestByItsId) {
   EXPECT_THAT(ack.message, HasSubstr("time_limit_s"));
 }
 
+TEST_F(PlannerNodeTest, ASpoiledCopyOfARequestThatWasTakenChangesNothing) {
+  hold_ = true;
+  StartNode();
+  StartSceneServer();
+  MessageCollector<PlanAckMessage> acks(&bus_, channels_.ack);
+  Send(Request("a"));
+  ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
+  PlanRequest spoiled = Request("a");
+  spoiled.time_limit_s = std::numeric_limits<double>::quiet_NaN();
+  Send(spoiled);
+  EXPECT_EQ(SendForAck(Request("a")).verdict, Verdict::kWorking);
+  hold_ = false;
+  ResultOf("a");
+  Send(spoiled);
+  Send(Request("a"));
+  ASSERT_TRUE(WaitForResultsOf("a", 2));
+  for (const PlanAckMessage& ack : acks.messages()) EXPECT_EQ(ack.verdict, Verdict::kWorking);
+}
+
 TEST_F(PlannerNodeTest, DropsARequestWithoutIdAndGoesOn) {
   StartNode();
   StartSceneServer();

@@ -164,6 +164,20 @@ TEST_F(RpcServerTest, RefusesARequestThatIsCutBehindItsId) {
   EXPECT_THAT(replies[0].message, HasSubstr("truncated or damaged lcmt_problem_request"));
 }
 
+TEST_F(RpcServerTest, ASpoiledCopyOfARequestThatWasTakenChangesNothing) {
+  Send({"id", "slow", 1});
+  ASSERT_TRUE(WaitUntil([&] { return num_answers_ == 1; }));
+  Send({"id", "slow", -3});  // being answered
+  MessageCollector<DiscoverMessage> barrier(&bus_, channel::kDiscover);
+  bus_.Publish(channel::kDiscover, DiscoverMessage{"test"});
+  ASSERT_EQ(barrier.WaitFor(1).size(), 1u);
+  release_.set_value();
+  ASSERT_EQ(replies_.WaitFor(1).size(), 1u);
+  Send({"id", "slow", -3});  // answered
+  EXPECT_TRUE(client_.Call({"another", "set", 1}, kRetry, kTestPatience));
+  for (const ProblemMessage& reply : replies_.messages()) EXPECT_TRUE(reply.ok) << reply.message;
+}
+
 TEST_F(RpcServerTest, MalformedRequestWithoutIdIsDropped) {
   Send({"", "set", 1});
   bus_.PublishBytes(channel::kProblemRequest, std::vector<std::uint8_t>{1, 2, 3});
