@@ -48,6 +48,7 @@ const live = (() => {
     shownAt = performance.now();
     at("view-title").textContent = data.title || "No view";
     at("facts").textContent = data.message || data.facts.join(" ");
+    at("view").hidden = Boolean(data.message);  // what it showed is another request
     if (data.message) return;
     const made = makeViewer(at("view"), data, viewer);
     viewer = made;
