@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <regex>
+#include <span>
 #include <string_view>
 
 #include "common/error.h"
@@ -16,6 +18,9 @@ namespace planbench {
 namespace {
 
 constexpr std::size_t kRunsShown = 30;
+constexpr std::size_t kImprovementsShown = 200;
+/// More names than any session has are a stranger's.
+constexpr std::size_t kMostNodes = 256;
 constexpr std::size_t kScenesKept = 200;
 constexpr int kFrames = 60;
 
@@ -85,6 +90,10 @@ void LiveSession::Hear(const ReceivedMessage& message, TimePoint now) {
   }
 }
 
+bool LiveSession::IsGone(const Node& node, TimePoint now) {
+  return now - node.heard > NodeRegistry::kLostAfter;
+}
+
 void LiveSession::HearStatus(NodeStatusMessage status, TimePoint now) {
   if (status.kind == NodeKind::kSceneServer) {
     if (!scene_server_ || scene_server_->robot_id != status.robot_id) {
@@ -94,6 +103,10 @@ void LiveSession::HearStatus(NodeStatusMessage status, TimePoint now) {
     scene_server_ = status;
   }
   const std::pair key(status.kind, status.name);
+  if (nodes_.size() >= kMostNodes && !nodes_.contains(key)) {
+    std::erase_if(nodes_, [&](const auto& node) { return IsGone(node.second, now); });
+    if (nodes_.size() >= kMostNodes) return;
+  }
   nodes_.insert_or_assign(key, Node{std::move(status), now});
 }
 
@@ -178,7 +191,7 @@ Json LiveSession::State(TimePoint now, const Bus::Counters& counters) const {
   }
   json["nodes"] = Json::array();
   for (const auto& [key, node] : nodes_) {
-    const bool is_gone = now - node.heard > NodeRegistry::kLostAfter;
+    const bool is_gone = IsGone(node, now);
     if (is_gone && node.heard < session_heard_) continue;  // an earlier session's
     json["nodes"].push_back({{"name", node.status.name},
                              {"kind", EnumName(node.status.kind)},
@@ -188,7 +201,8 @@ Json LiveSession::State(TimePoint now, const Bus::Counters& counters) const {
                              {"gone", is_gone}});
   }
   json["progress"] = Json::array();
-  for (const PlanProgress& one : progress_) {
+  const std::size_t num_shown = std::min(progress_.size(), kImprovementsShown);
+  for (const PlanProgress& one : std::span(progress_).last(num_shown)) {
     json["progress"].push_back({{"time_s", one.elapsed_s},
                                 {"cost", UnlessZero(one.cost)},
                                 {"bound", UnlessZero(one.epsilon)}});

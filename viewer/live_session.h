@@ -38,7 +38,7 @@ class LiveSession {
 
   /// {session: {run_id, robot, num_runs, finished}, contestants: [{name, runs, solved}],
   ///  nodes: [{name, kind, busy, request, host, gone}],
-  ///  progress: [{time_s, cost, bound}] of the last request,
+  ///  progress: [{time_s, cost, bound}] of the last request, the latest 200,
   ///  runs: [{contestant, problem, status, reason, time_s}], the newest first,
   ///  lost, dropped, malformed, undecodable}. A node unheard of for 3 s before `now` is gone;
   /// one of before the session is then left out.
@@ -51,6 +51,12 @@ class LiveSession {
   std::optional<Json> View() const;
 
  private:
+  struct Node {
+    NodeStatusMessage status;
+    TimePoint heard;
+  };
+  static bool IsGone(const Node& node, TimePoint now);
+
   void HearStatus(NodeStatusMessage status, TimePoint now);
   /// `planner`: what its channel calls the planner, in capitals.
   void HearRequest(const PlanRequest& request, const std::string& planner);
@@ -66,10 +72,6 @@ class LiveSession {
   std::optional<SessionMessage> session_;
   TimePoint session_heard_;                        ///< Its first message.
   std::optional<NodeStatusMessage> scene_server_;  ///< Heard last: a bus has one at a time.
-  struct Node {
-    NodeStatusMessage status;
-    TimePoint heard;
-  };
   std::map<std::pair<NodeKind, std::string>, Node> nodes_;
   std::map<std::string, ShownScene> scenes_;  ///< By content id.
   /// The last request and what is known of it.

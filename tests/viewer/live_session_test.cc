@@ -175,6 +175,36 @@ TEST_F(LiveSessionTest, WhoIsGoneSinceBeforeTheSessionIsLeftOut) {
   EXPECT_EQ(nodes[0]["gone"], true);
 }
 
+TEST_F(LiveSessionTest, AStrangersManyNamesTakeNoMorePlaceThanTheyMay) {
+  NodeStatusMessage node;
+  node.instance = std::string(16, 'a');
+  const auto hear = [&](const std::string& name, std::chrono::seconds later) {
+    node.name = name;
+    live_.Hear(PlanarSession::Received(channel::kNodeStatus, node), kStart + later);
+  };
+  const auto last_name = [&] { return State(std::chrono::seconds(9))["nodes"].back()["name"]; };
+  for (int i = 0; i < 1000; ++i) hear("a" + std::to_string(i), {});
+  hear("rrtc", {});
+  EXPECT_LE(State()["nodes"].size(), 256u);
+  EXPECT_NE(last_name(), "rrtc");
+  hear("rrtc", std::chrono::seconds(9));  // the others are gone
+  EXPECT_EQ(last_name(), "rrtc");
+}
+
+TEST_F(LiveSessionTest, OfManyImprovementsTheLatestAreTold) {
+  Hear("PLAN_REQUEST_ARA", bus_.request);
+  PlanProgressMessage progress;
+  progress.planner = "ara";
+  progress.request_id = bus_.request.request_id;
+  for (int i = 1; i <= 1000; ++i) {
+    progress.progress = {1e-3 * i, 0, 2000.0 - i, 7};
+    Hear("PLAN_PROGRESS_ARA", progress);
+  }
+  const Json told = State()["progress"];
+  EXPECT_EQ(told.size(), 200u);
+  EXPECT_EQ(told.back()["cost"], 1000);
+}
+
 TEST_F(LiveSessionTest, ARobotFolderThatIsNoneIsRefusedAtOnce) {
   ExpectInputError([] { LiveSession("/nowhere"); }, {"/nowhere"});
 }
