@@ -14,14 +14,14 @@ namespace planbench {
 namespace {
 
 /// Stands for the connection to LiveServer: the probe sends events.
-constexpr char kEvents[] = R"script(<script>
+constexpr char kSentEvents[] = R"script(<script>
 class EventSource {
   constructor() { window.source = this; this.heard = {}; }
   addEventListener(name, listener) { this.heard[name] = listener; }
 }
 </script>)script";
 
-constexpr char kProbe[] = R"script(
+constexpr char kLiveProbe[] = R"script(
   let now = 1e9;
   performance.now = () => now;
   const text = id => document.getElementById(id).textContent;
@@ -52,12 +52,12 @@ TEST(LivePage, ShowsWhatItIsSentAndNoPictureOfAnotherRequest) {
   hear(channel::kScene, bus.scene);
   hear(channel::kRunRecord, bus.record);
   std::string page = LivePage();
-  page.insert(page.find("</head>"), kEvents);
+  page.insert(page.find("</head>"), kSentEvents);
   const TemporaryFolder folder;
   folder.Write("page.html", page);
   const nlohmann::json found =
       Browse(folder / "page.html", "const state = " + live.State({}, {}).dump() +
-                                       ", view = " + live.View()->dump() + ";" + kProbe);
+                                       ", view = " + live.View()->dump() + ";" + kLiveProbe);
   EXPECT_NE(found["subtitle"].get<std::string>().find("session session"), std::string::npos)
       << found;
   EXPECT_NE(found["runs"].get<std::string>().find("<img src=x>"), std::string::npos) << found;
