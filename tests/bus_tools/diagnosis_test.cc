@@ -1,5 +1,6 @@
 #include "bus_tools/diagnosis.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "common/version.h"
@@ -42,7 +43,7 @@ TEST(Diagnosis, OfAQuietBusFindsNoFault) {
 }
 
 TEST(Diagnosis, NamesWhatTheUrlLacks) {
-  const std::string port = "udpm://239.255.76.67:" + std::to_string(FreeUdpPort());
+  const std::string port = fmt::format("udpm://239.255.76.67:{}", FreeUdpPort());
   EXPECT_EQ(Of(Look(port), "reach").kind, Kind::kGood) << "LCM's own default stays here";
   const std::string bare = port + "?ttl=1";
   const std::vector<Finding> findings = Look(bare);

@@ -1,5 +1,6 @@
 #include "viewer/live_session.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -183,7 +184,7 @@ TEST_F(LiveSessionTest, AStrangersManyNamesTakeNoMorePlaceThanTheyMay) {
     live_.Hear(PlanarSession::Received(channel::kNodeStatus, node), kStart + later);
   };
   const auto last_name = [&] { return State(std::chrono::seconds(9))["nodes"].back()["name"]; };
-  for (int i = 0; i < 1000; ++i) hear("a" + std::to_string(i), {});
+  for (int i = 0; i < 1000; ++i) hear(fmt::format("a{}", i), {});
   hear("rrtc", {});
   EXPECT_LE(State()["nodes"].size(), 256u);
   EXPECT_NE(last_name(), "rrtc");
