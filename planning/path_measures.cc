@@ -109,7 +109,7 @@ const PathSurvey::Clearance& PathSurvey::clearance() {
   VisitSamples(*edges_, *path_, [&](int, double, const Configuration& q, double motion_m) {
     const double clearance_m = edges_->checker().FindClosest(q).distance_m;
     minimum_m = std::min(minimum_m, clearance_m);
-    if (previous_m) {
+    if (previous_m && motion_m > 0) {  // Nothing times infinity is no number.
       weighted_sum += motion_m * (*previous_m + clearance_m) / 2;
       weight += motion_m;
     }

@@ -121,10 +121,12 @@ TEST_F(TakeMeasuresTest, ClearancesAreInfiniteWhereThereIsNothingToCollideWith) 
   const std::vector<double> positions = robot.model.DefaultPositions();
   checker->SetScene(EmptyPlanarScene(), positions);
   const EdgeChecker edges(checker.get(), 0.01, EdgeCheck::kFixed);
-  PathSurvey survey(edges, straight_, positions);
-  const MeasuredValues values = TakeMeasures(&survey, true);
-  EXPECT_EQ(values.at("clearance"), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(values.at("clearance_mean"), std::numeric_limits<double>::infinity());
+  for (const Path& path : {straight_, cut_, Path{straight_[0]}}) {  // cut_ repeats a waypoint.
+    PathSurvey survey(edges, path, positions);
+    const MeasuredValues values = TakeMeasures(&survey, true);
+    EXPECT_EQ(values.at("clearance"), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(values.at("clearance_mean"), std::numeric_limits<double>::infinity());
+  }
 }
 
 TEST_F(TakeMeasuresTest, TakesEachUnlessItIsAClearanceNotAskedFor) {
