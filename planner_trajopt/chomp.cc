@@ -12,7 +12,7 @@ namespace {
 /// Change of the step's limit after an iteration that raised the cost, and after any other.
 constexpr double kShrink = 0.5;
 constexpr double kGrow = 1.1;
-constexpr int kLimitCorrections = 10;
+constexpr int kLimitCorrections = 10;  // of a joint, an iteration
 
 }  // namespace
 
@@ -75,22 +75,21 @@ std::optional<Trajectory> Chomp::FunctionalGradient(const std::vector<double>& d
   return gradient;
 }
 
-bool Chomp::KeepWithinLimits(Trajectory* trajectory) const {
+void Chomp::KeepWithinLimits(Trajectory* trajectory) const {
   auto inner = trajectory->middleRows(1, NumInner(*trajectory));
-  for (int k = 0; k < kLimitCorrections; ++k) {
-    Trajectory within = inner;
-    bounds_.Clamp(within);
-    const Trajectory violation = within - inner;
-    Eigen::Index row = 0, joint = 0;
-    const double largest = violation.cwiseAbs().maxCoeff(&row, &joint);
-    if (!(largest > 0)) return true;
-    if (cost_->ShouldStop()) return false;
-    // Smooth, and such that the worst one is mended.
-    const Trajectory correction = inverse_metric_ * violation;
-    inner += correction * (violation(row, joint) / correction(row, joint));
+  for (Eigen::Index j = 0; j < inner.cols(); ++j) {
+    auto joint = inner.col(j);
+    for (int k = 0; k < kLimitCorrections; ++k) {
+      const Eigen::VectorXd violation =
+          joint.cwiseMax(bounds_.lower()[j]).cwiseMin(bounds_.upper()[j]) - joint;
+      Eigen::Index row = 0;
+      if (!(violation.cwiseAbs().maxCoeff(&row) > 0)) break;
+      // The inverse metric's column is smooth and largest at its own row: no waypoint moves further
+      // than the worst one has to. All violations at once, smoothed, add up to many times that.
+      joint += violation[row] / inverse_metric_(row, row) * inverse_metric_.col(row);
+    }
   }
   bounds_.Clamp(inner);
-  return true;
 }
 
 void Chomp::Iterate(const std::vector<double>& distances, Trajectory* trajectory) {
@@ -113,7 +112,8 @@ void Chomp::Iterate(const std::vector<double>& distances, Trajectory* trajectory
   if (largest > step_) descent *= step_ / largest;
   Trajectory next = *trajectory;
   next.middleRows(1, num_inner) += descent;
-  if (KeepWithinLimits(&next)) *trajectory = std::move(next);
+  KeepWithinLimits(&next);
+  *trajectory = std::move(next);
 }
 
 }  // namespace planbench

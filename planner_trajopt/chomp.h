@@ -11,8 +11,9 @@ namespace planbench {
 
 /// CHOMP (Ratliff, Zucker, Bagnell and Srinivasa, "CHOMP: Gradient Optimization Techniques for
 /// Efficient Motion Planning", ICRA 2009): covariant gradient descent in the metric of velocities,
-/// with the functional gradient of cost times speed and the paper's smooth correction of joint
-/// limits. Gradients of the distance are central differences, all waypoints' at once.
+/// with the functional gradient of cost times speed and a smooth correction of joint limits, as the
+/// authors' program has it. Gradients of the distance are central differences, all waypoints' at
+/// once.
 class Chomp final : public Optimiser {
  public:
   /// `space` and `cost` must outlive it.
@@ -25,8 +26,9 @@ class Chomp final : public Optimiser {
   /// Of the obstacles' cost, N x n. Nothing if it was stopped.
   std::optional<Trajectory> FunctionalGradient(const std::vector<double>& distances,
                                                const Trajectory& trajectory);
-  /// False if it was stopped.
-  bool KeepWithinLimits(Trajectory* trajectory) const;
+  /// Joint by joint, the waypoint furthest outside is brought to its limit and takes the others
+  /// along smoothly; what is still outside after some of these is cut off.
+  void KeepWithinLimits(Trajectory* trajectory) const;
 
   const TrajectoryCost* cost_;
   JointBounds bounds_;

@@ -183,6 +183,29 @@ TEST_F(TrajectoryTest, WithoutObstaclesBothComeBackTowardsTheStraightLine) {
   }
 }
 
+TEST_F(TrajectoryTest, ChompBringsJointsBackToTheirLimitsSmoothlyAndNoFurther) {
+  const TrajoptSettings settings;
+  const TrajectoryCost cost(edges_.get(), settings.clearance, /*smoothness=*/0);
+  const double limit = space_.joint(1).upper;
+  Trajectory trajectory = Trajectory::Zero(settings.waypoints + 2, space_.size());
+  // As a step may leave it: one joint is outside beside the start, another one, less, for long.
+  trajectory.col(2).segment(0, 5).setConstant(limit + 0.1);
+  trajectory(0, 2) = limit;
+  trajectory.col(1).segment(10, 31).setConstant(limit + 0.09);
+  const Trajectory before = trajectory;
+  // Nothing is near, so that there is nothing else to be done.
+  Chomp(space_, settings, &cost)
+      .Iterate(std::vector<double>(static_cast<std::size_t>(trajectory.rows()), settings.clearance),
+               &trajectory);
+  Trajectory clamped = trajectory;
+  JointBounds(space_).Clamp(clamped);
+  EXPECT_EQ(clamped, trajectory);
+  EXPECT_LT((trajectory - before).cwiseAbs().maxCoeff(), 0.2);
+  EXPECT_LT(trajectory(8, 1), before(8, 1)) << "neighbours go along";
+  EXPECT_LT(trajectory(6, 2), before(6, 2));
+  EXPECT_EQ(trajectory.col(0), before.col(0));
+}
+
 TEST_F(TrajectoryTest, SettingUpStompForManyWaypointsTakesNoFactorisation) {
   TrajoptSettings settings;
   settings.waypoints = 400;
