@@ -39,6 +39,31 @@ void RequireSeen(const std::vector<std::string>& wanted, const std::set<std::str
   }
 }
 
+/// The group's joints, in its order: the driver's goals name them so, one alternative after the
+/// other.
+std::vector<std::string> GroupJoints(const RunRecordMessage& run) {
+  const std::size_t num_joints = run.result.joint_names.size();
+  std::vector<std::string> joints;
+  for (const JointGoal& goal : run.request.goal) {
+    if (joints.size() < num_joints) joints.push_back(goal.joint);
+  }
+  return joints;
+}
+
+/// The path that has its positions in the order of `names`, which are those of `joints`.
+Path InOrderOf(const std::vector<std::string>& joints, const std::vector<std::string>& names,
+               const Path& path) {
+  Path ordered;
+  for (const Configuration& q : path) {
+    Configuration& waypoint = ordered.emplace_back();
+    for (const std::string& joint : joints) {
+      const auto found = std::find(names.begin(), names.end(), joint);
+      waypoint.push_back(q.at(static_cast<std::size_t>(found - names.begin())));
+    }
+  }
+  return ordered;
+}
+
 bool Wanted(const std::vector<std::string>& wanted, const std::string& name) {
   return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
 }
@@ -68,14 +93,18 @@ Learned LearnPaths(const EachRun& each_run, const Lessons& lessons) {
     const std::optional<double> length =
         FindMeasure(run.simplified_check.verdict->measures, kLength);
     if (!length) return;
-    if (library.joints.empty()) library.joints = run.result.joint_names;
-    if (library.joints != run.result.joint_names) {
+    const std::vector<std::string>& names = run.result.joint_names;  // in any order
+    if (library.joints.empty()) library.joints = GroupJoints(run);
+    if (!std::is_permutation(library.joints.begin(), library.joints.end(), names.begin(),
+                             names.end())) {
       throw InputError(fmt::format("set '{}': its paths are of other joints than those before",
                                    run.problem_set));
     }
     const auto [best, first] = shortest.try_emplace(
-        {run.problem_set, run.problem_index, run.request.scene_id}, *length, path);
-    if (!first && *length < best->second.first) best->second = {*length, path};
+        {run.problem_set, run.problem_index, run.request.scene_id}, *length, Path());
+    if (first || *length < best->second.first) {
+      best->second = {*length, InOrderOf(library.joints, names, path)};
+    }
   });
   RequireSeen(lessons.sets, sets, "--sets");
   RequireSeen(lessons.contestants, contestants, "--contestants");

@@ -16,6 +16,7 @@ RunRecordMessage SolvedRun(const std::string& set, int problem, double length) {
   run.problem_set = set;
   run.problem_index = problem;
   run.status = PlanStatus::kSolved;
+  run.request.goal = {{.joint = "turn", .position = length}};
   run.result.joint_names = {"turn"};
   run.result.result.simplified_path = {{0}, {length}};
   run.simplified_check.verdict.emplace();
@@ -95,8 +96,25 @@ TEST(LearnPaths, TakesOnlyTheSetsAndContestantsAskedFor) {
       {"--contestants", "'PRM'", "ARA*; ara; other, guided; prm"});
 }
 
+TEST(LearnPaths, PathsAreInTheGroupsOrderWhicheverTheirPlannersHave) {
+  RunRecordMessage run = SolvedRun("a", 1, 5);
+  // Two alternatives.
+  for (const char* joint : {"bend", "turn", "bend"}) run.request.goal.push_back({.joint = joint});
+  run.result.joint_names = {"bend", "turn"};
+  run.result.result.simplified_path = {{1, 2}, {3, 4}};
+  RunRecordMessage other = run;
+  other.problem_index = 2;
+  other.result.joint_names = {"turn", "bend"};
+  for (const auto& runs : {std::vector{run, other}, std::vector{other, run}}) {
+    const PathLibrary library = LearnPaths(Held(runs), {}).library;
+    EXPECT_EQ(library.joints, (std::vector<std::string>{"turn", "bend"}));
+    EXPECT_EQ(library.paths, (std::vector<Path>{{{2, 1}, {4, 3}}, {{1, 2}, {3, 4}}}));
+  }
+}
+
 TEST(LearnPaths, PathsOfOtherJointsAreNotMixed) {
   RunRecordMessage other = SolvedRun("b", 1, 1);
+  other.request.goal.front().joint = "bend";
   other.result.joint_names = {"bend"};
   ExpectInputError(
       [&] {
