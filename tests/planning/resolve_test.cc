@@ -139,6 +139,8 @@ TEST_F(ResolveTest, AnInitialPathNamesItsJointsAndLeadsIntoTheGoal) {
   const auto resolve = [&] { return ResolveInitialPath(group, query, names, path, "test"); };
   EXPECT_EQ(resolve(), (Path{{0.1, 0.2, 0.3}, {1, 1, 1}, {3.1, 1.2, 2.5}}));
   EXPECT_EQ(ResolveInitialPath(group, query, {}, {}, "test"), Path());
+  path[0][1] += 5e-10;
+  EXPECT_EQ(resolve().front(), query.start) << "but for rounding";
 
   const auto expect_refused = [&](const std::string& what) {
     ExpectInputError([&] { resolve(); }, {"test: initial_path", what});
@@ -157,6 +159,22 @@ TEST_F(ResolveTest, AnInitialPathNamesItsJointsAndLeadsIntoTheGoal) {
   expect_refused("'lift', which is not in group");
   names = {"wrist"};
   expect_refused("1 joints");
+}
+
+TEST_F(ResolveTest, AnInitialPathOfOneWaypointDoesNotBridgeTheGapBetweenStartAndGoal) {
+  const PlanningGroup& group = robot_.groups.front();
+  const std::vector<std::string> names = {"shoulder", "elbow", "wrist"};
+  ResolvedQuery query = Resolve(start_, goal_);
+  query.goals = {{query.start, query.start, query.start}};
+  for (Configuration* q : {&query.goals[0].nominal, &query.goals[0].lower, &query.goals[0].upper}) {
+    (*q)[1] += 1.8e-9;  // Either is within rounding of the middle, not of the other.
+  }
+  Configuration middle = query.start;
+  middle[1] += 0.9e-9;
+  ExpectInputError([&] { ResolveInitialPath(group, query, names, {middle}, "test"); },
+                   {"does not end in a goal"});
+  EXPECT_EQ(
+      ResolveInitialPath(group, query, names, {middle, query.goals[0].nominal}, "test").size(), 2u);
 }
 
 }  // namespace
