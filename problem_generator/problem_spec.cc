@@ -29,6 +29,7 @@ Range ReadRange(const YamlNode& node) {
   }
   const std::vector<double> ends = node.Doubles(2);
   if (ends[0] > ends[1]) node.Fail("a range is [low, high]; its ends are the wrong way round");
+  if (std::isinf(ends[1] - ends[0])) node.Fail("the range is too wide to draw from");
   return {ends[0], ends[1]};
 }
 
@@ -74,6 +75,11 @@ Range3 RpyOr0(const YamlNode& map) {
 Range RangeOr0(const YamlNode& map, const std::string& key) {
   const auto node = map.Find(key);
   return node ? ReadRange(*node) : kZero;
+}
+
+double ToleranceOr0(const YamlNode& map, const std::string& key) {
+  const auto node = map.Find(key);
+  return node ? node->DoubleWithin(0, kFarthestAway) : 0;
 }
 
 int PositiveInt(const YamlNode& node) { return node.IntWithin(1, 1'000'000); }
@@ -340,12 +346,8 @@ GripperSpec ReadGripper(const YamlNode& node, const Setup& setup,
   gripper.around = RangeOr0(node, "around");
   gripper.position = ReadPosition(node.At("position"));
   gripper.rpy = RpyOr0(node);
-  if (const auto tolerance = node.Find("position_tolerance")) {
-    gripper.position_tolerance_m = tolerance->NonNegativeDouble();
-  }
-  if (const auto tolerance = node.Find("orientation_tolerance")) {
-    gripper.orientation_tolerance_rad = tolerance->NonNegativeDouble();
-  }
+  gripper.position_tolerance_m = ToleranceOr0(node, "position_tolerance");
+  gripper.orientation_tolerance_rad = ToleranceOr0(node, "orientation_tolerance");
   return gripper;
 }
 
