@@ -5,6 +5,24 @@
 #include "common/numbers.h"
 
 namespace planbench {
+namespace {
+
+/// The points themselves, a row each.
+Trajectory Corners(const JointSpace& space, const std::vector<Configuration>& points) {
+  Trajectory corners(static_cast<Eigen::Index>(points.size()), space.size());
+  for (int j = 0; j < space.size(); ++j) {
+    const auto joint = static_cast<std::size_t>(j);
+    corners(0, j) = points[0][joint];
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      corners(row, j) =
+          corners(row - 1, j) + space.Difference(j, points[k - 1][joint], points[k][joint]);
+    }
+  }
+  return corners;
+}
+
+}  // namespace
 
 JointBounds::JointBounds(const JointSpace& space) : lower_(space.size()), upper_(space.size()) {
   for (int j = 0; j < space.size(); ++j) {
@@ -18,20 +36,6 @@ void JointBounds::Clamp(Eigen::Ref<Trajectory> rows) const {
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     rows.row(i) = rows.row(i).cwiseMax(lower_).cwiseMin(upper_);
   }
-}
-
-Trajectory Corners(const JointSpace& space, const std::vector<Configuration>& points) {
-  Trajectory corners(static_cast<Eigen::Index>(points.size()), space.size());
-  for (int j = 0; j < space.size(); ++j) {
-    const auto joint = static_cast<std::size_t>(j);
-    corners(0, j) = points[0][joint];
-    for (std::size_t k = 1; k < points.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(k);
-      corners(row, j) =
-          corners(row - 1, j) + space.Difference(j, points[k - 1][joint], points[k][joint]);
-    }
-  }
-  return corners;
 }
 
 Trajectory Through(const JointSpace& space, const std::vector<Configuration>& points,

@@ -11,7 +11,8 @@
 namespace planbench {
 
 /// A row a configuration: start, inner waypoints, goal (rad or m). Continuous joints are not
-/// wrapped: neighbouring rows differ by the motion between them, which is less than half a turn.
+/// wrapped: neighbouring rows differ by the motion between them. Where few waypoints are more than
+/// half a turn apart, the path goes the short way round all the same.
 using Trajectory = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 inline int NumInner(const Trajectory& trajectory) {
@@ -36,9 +37,6 @@ class JointBounds {
   Eigen::RowVectorXd lower_;
   Eigen::RowVectorXd upper_;
 };
-
-/// The points themselves, a row each.
-Trajectory Corners(const JointSpace& space, const std::vector<Configuration>& points);
 
 /// Straight motions from point to point, continuous joints the short way round, SpacedEvenly. At
 /// least two points.

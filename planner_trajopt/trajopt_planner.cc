@@ -18,17 +18,13 @@
 #include "planner_trajopt/trajectory.h"
 #include "planner_trajopt/trajectory_cost.h"
 #include "planner_trajopt/trajopt_settings.h"
+#include "planning/path_measures.h"
 
 namespace planbench {
 namespace {
 
 /// What counts as a lower cost or a shorter path, relative.
 constexpr double kImprovement = 1e-3;
-
-double Length(const Trajectory& trajectory) {
-  const Eigen::Index moves = trajectory.rows() - 1;
-  return (trajectory.bottomRows(moves) - trajectory.topRows(moves)).rowwise().norm().sum();
-}
 
 /// One search: guess after guess is optimised until one is free, or, anytime, until the end. Before
 /// them, a path that is given is optimised as long as that helps, free or not.
@@ -106,7 +102,7 @@ class TrajectorySearch {
       }
     }
     path_ = path;
-    length_ = Length(Corners(query_->space(), path));
+    length_ = PathLength(query_->space(), path);
     query_->ReportSolution(/*lower_bound=*/0, length_, num_iterations_);
   }
 
@@ -129,10 +125,12 @@ class TrajectorySearch {
 
   /// Takes the trajectory for the path if it is free and shorter than what there is.
   void Keep(const Trajectory& trajectory) {
-    const double length = Length(trajectory);
+    // Of the path: where few waypoints are far apart, the rows may differ by more.
+    Path path = PathOf(query_->space(), trajectory);
+    const double length = PathLength(query_->space(), path);
     if (!path_.empty() && !(length < (1 - kImprovement) * length_)) return;
     if (!IsFree(trajectory)) return;
-    path_ = PathOf(query_->space(), trajectory);
+    path_ = std::move(path);
     length_ = length;
     query_->ReportSolution(/*lower_bound=*/0, length_, num_iterations_);
   }

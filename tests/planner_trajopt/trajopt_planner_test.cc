@@ -155,6 +155,15 @@ TEST_F(TrajoptPlannerTest, AStraightMotionThatIsFreeIsThePath) {
   EXPECT_EQ(result.counters.at("edges_checked"), 10);
 }
 
+TEST_F(TrajoptPlannerTest, TheCostIsThePathsLengthAlsoWhereWaypointsAreFarApart) {
+  const JointSpace& space = robot_.groups.front().space;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const PlanResult result = Solve("{waypoints: 1, noise: 1}", PostsScene(), seed);
+    ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+    EXPECT_NEAR(result.cost, PathLength(space, result.path), 1e-9) << seed;
+  }
+}
+
 TEST_F(TrajoptPlannerTest, SeedsDecideThePath) {
   for (const std::string settings : {"", "algorithm: CHOMP"}) {
     const Path one = Solve(settings, PostsScene(), 1).path;
