@@ -42,6 +42,20 @@ int RunProgram(std::vector<std::string> arguments) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+/// "1-3,7" of ascending indices, for --problems-range: of a large set the indices one by one are
+/// more than an argument may hold.
+std::string RangesOf(const std::vector<int>& indices) {
+  std::vector<std::string> ranges;
+  for (std::size_t i = 0; i < indices.size();) {
+    std::size_t last = i;
+    while (last + 1 < indices.size() && indices[last + 1] == indices[last] + 1) ++last;
+    ranges.push_back(last == i ? fmt::format("{}", indices[i])
+                               : fmt::format("{}-{}", indices[i], indices[last]));
+    i = last + 1;
+  }
+  return fmt::format("{}", fmt::join(ranges, ","));
+}
+
 /// Those of `indices` that no run of the session solved.
 std::vector<int> UnsolvedIn(const fs::path& session, const std::vector<int>& indices) {
   SqliteConnection results(session / "results.sqlite", SqliteConnection::Mode::kReadOnly);
@@ -74,11 +88,11 @@ Certification CertifyProblemSet(
     const int round = ++certification.num_rounds;
     const fs::path session = options.sessions / fmt::format("round_{}", round);
     // What is asked is whether there is a path, not how good it is.
-    const int code = RunProgram(
-        {options.driver.string(), "--launch", "--robot", options.robot.string(), "--problems",
-         folder.string(), "--problems-range", fmt::format("{}", fmt::join(indices, ",")),
-         "--directions", "both", "--time", fmt::format("{}", options.time_limit_s), "--no-simplify",
-         "--no-clearance", "--out", session.string()});
+    const int code =
+        RunProgram({options.driver.string(), "--launch", "--robot", options.robot.string(),
+                    "--problems", folder.string(), "--problems-range", RangesOf(indices),
+                    "--directions", "both", "--time", fmt::format("{}", options.time_limit_s),
+                    "--no-simplify", "--no-clearance", "--out", session.string()});
     if (code != 0) {
       throw std::runtime_error(fmt::format("{} ended with exit code {} in round {}",
                                            options.driver.string(), code, round));

@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -49,10 +50,12 @@ class CertifierTest : public testing::Test {
     SqliteConnection results(folder_ / ("round_" + std::to_string(round)),
                              SqliteConnection::Mode::kReadWriteCreate);
     results.Execute("CREATE TABLE runs (problem_index INTEGER, solved, referee_valid)");
+    results.Execute("BEGIN");
     for (const RunRow& run : runs) {
       results.Execute("INSERT INTO runs VALUES (" + std::to_string(run.problem_index) + ", " +
                       std::to_string(run.solved) + ", " + run.referee_valid + ")");
     }
+    results.Execute("COMMIT");
   }
   Certification Certify(std::vector<int> indices) {
     return CertifyProblemSet("a/set", std::move(indices), options_,
@@ -94,7 +97,7 @@ TEST_F(CertifierTest, WhatAnyPlannerSolvesInAnyDirectionStays) {
   EXPECT_THAT(replacements_, IsEmpty());
   ASSERT_EQ(Calls().size(), 1u);
   EXPECT_THAT(Calls()[0],
-              HasSubstr("--launch --robot a/robot --problems a/set --problems-range 1,2 "
+              HasSubstr("--launch --robot a/robot --problems a/set --problems-range 1-2 "
                         "--directions both --time 7.5 "));
 }
 
@@ -109,8 +112,20 @@ TEST_F(CertifierTest, WhatNobodySolvesIsReplacedUntilItIsSolved) {
   EXPECT_THAT(replacements_, ElementsAre(Pair(ElementsAre(2, 3), 1), Pair(ElementsAre(3), 2)));
   const auto calls = Calls();
   ASSERT_EQ(calls.size(), 3u);
-  EXPECT_THAT(calls[1], HasSubstr("--problems-range 2,3 "));
+  EXPECT_THAT(calls[1], HasSubstr("--problems-range 2-3 "));
   EXPECT_THAT(calls[2], HasSubstr("--problems-range 3 "));
+}
+
+TEST_F(CertifierTest, ManyProblemsFitIntoOneArgument) {
+  std::vector<int> indices(30'000);
+  std::iota(indices.begin(), indices.end(), 1);
+  std::vector<RunRow> runs;
+  for (const int index : indices) runs.push_back({index, index != 7 && index != 9, "1"});
+  WriteResults(1, runs);
+  WriteResults(2, {{7, 1, "1"}, {9, 1, "1"}});
+  EXPECT_THAT(Certify(indices).replaced, ElementsAre(Pair(7, 1), Pair(9, 1)));
+  EXPECT_THAT(Calls(), ElementsAre(HasSubstr("--problems-range 1-30000 "),
+                                   HasSubstr("--problems-range 7,9 ")));
 }
 
 TEST_F(CertifierTest, APathThatTheRefereeDidNotFindValidIsNone) {
