@@ -33,6 +33,7 @@ Configuration Waypoint(const YamlNode& node, const JointSpace& space) {
   if (const auto fault = space.FindLimitFault(q)) {
     node.At(space.FirstOutsideLimits(q)).Fail(*fault);
   }
+  space.Wrap(q);
   return q;
 }
 

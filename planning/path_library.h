@@ -23,7 +23,8 @@ std::string ShortSceneId(const std::string& scene_id);
 struct PathLibrary {
   std::vector<std::string> joints;        ///< n, in the order of positions.
   std::vector<std::string> learned_from;  ///< Problem sets, sorted.
-  std::vector<Path> paths;  ///< One at least; each of two waypoints at least, n positions each.
+  /// One at least; each of two waypoints at least, n positions each, continuous joints wrapped.
+  std::vector<Path> paths;
   /// Content ids of the scenes that the paths were found in, sorted; empty in libraries that were
   /// made before scenes were told.
   std::vector<std::string> scenes = {};

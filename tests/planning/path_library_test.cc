@@ -44,6 +44,15 @@ TEST(PathLibrary, IsReadAsItWasWritten) {
   EXPECT_EQ(read.paths, library.paths);
 }
 
+TEST(PathLibrary, TurnsOfContinuousJointsAreTakenOutAsItIsRead) {
+  const PathLibrary library = Library({{{3, 0}, {4, 0}, {20 * kPi + 1, 0}}});
+  const Path path =
+      ReadPathLibrary(YamlNode::Parse(ToYaml(library), "paths.yaml"), Groups()).paths.front();
+  EXPECT_EQ(path[0], (Configuration{3, 0}));
+  EXPECT_NEAR(path[1][0], 4 - 2 * kPi, 1e-12);
+  EXPECT_NEAR(path[2][0], 1, 1e-12);
+}
+
 TEST(PathLibrary, RecallsTheStretchBetweenTheEnds) {
   const PathLibrary library = Library({{{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {{0, 2}, {1, 2}}});
   EXPECT_EQ(library.Recall(Space(), Configuration{0.9, 0.1}, Configuration{2.1, 0}, 1),
