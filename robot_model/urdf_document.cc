@@ -94,7 +94,16 @@ class ElementFinder {
       }
     }
     const std::optional<std::string> name = tag.Attribute("name");
-    if (!name || open_.size() != 1) return;
+    if (!name) return;
+    // What is not empty defines one, be it within a link.
+    if (tag.element == "material" && !tag.empty && !name->empty()) {
+      document_.material_lines.insert_or_assign(*name, tag.line);
+    }
+    if (open_.size() != 1) return;
+    if (name->empty() && (tag.element == "link" || tag.element == "joint")) {
+      throw InputError(
+          fmt::format("{}:{}: <{}>: its name is empty", origin_, tag.line, tag.element));
+    }
     if (tag.element == "link") {
       document_.link_lines.try_emplace(*name, tag.line);
     } else if (tag.element == "joint") {
@@ -177,12 +186,13 @@ class ElementFinder {
   std::vector<JointEnds> joints_;
 };
 
-// ":LINE" of the first link or joint that urdfdom's report names, in brackets or quotes; "" if it
-// names none.
+// ":LINE" of the first link, joint or material that urdfdom's report names, in brackets or quotes;
+// "" if it names none.
 std::string LineOfReport(const std::string& report, const UrdfDocument& document) {
   std::size_t first = std::string::npos;
   int line = 0;
-  for (const auto* lines : {&document.joint_lines, &document.link_lines}) {
+  for (const auto* lines :
+       {&document.joint_lines, &document.link_lines, &document.material_lines}) {
     for (const auto& [name, at_line] : *lines) {
       for (const auto& quoted : {"[" + name + "]", "'" + name + "'"}) {
         const std::size_t at = report.find(quoted);

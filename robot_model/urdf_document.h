@@ -15,7 +15,8 @@ struct UrdfDocument {
   urdf::ModelInterfaceSharedPtr model;
   std::map<std::string, int> link_lines;   ///< Line of each <link name="...">, from 1.
   std::map<std::string, int> joint_lines;  ///< Line of each <joint name="..." type="...">, from 1.
-  std::map<std::string, int> joint_order;  ///< Rank of each joint in the text.
+  std::map<std::string, int> material_lines;  ///< Where each was defined last.
+  std::map<std::string, int> joint_order;     ///< Rank of each joint in the text.
   /// xyz of each joint's <axis>, as written: urdfdom reads none of fixed joints.
   std::map<std::string, std::string> joint_axes;
   /// Joints whose <safety_controller> gives that limit; the model has 0 where it is not given.
@@ -27,7 +28,8 @@ struct UrdfDocument {
 
 /// Parses URDF text, of version 1.0 to 1.2, with urdfdom. Throws InputError with what urdfdom
 /// reported (it is not printed), and for what it would not report: text that is no UTF-8, xacro
-/// that is not expanded, a second element where one counts. `origin` names the text.
+/// that is not expanded, a second element where one counts, links and joints of an empty name.
+/// `origin` names the text.
 UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& origin);
 
 }  // namespace planbench

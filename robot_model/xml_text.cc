@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "common/error.h"
@@ -137,8 +139,7 @@ class TagChecker {
     } else if (attribute != attributes.end()) {
       what = fmt::format("{}<{}>: the attribute {} is xacro and not expanded", Place(), tag.element,
                          attribute->name);
-    } else if (Within("link") || Within("joint") || tag.element == "link" ||
-               tag.element == "joint") {
+    } else if (IsDescription(tag)) {
       for (const std::string_view begin : {"${", "$("}) {
         const std::size_t at = tag.text.find(begin);
         if (at == std::string_view::npos) continue;
@@ -151,6 +152,22 @@ class TagChecker {
     if (what.empty()) return;
     Fail(tag.line,
          fmt::format("{}; expand the file first: xacro {} > {}", what, origin_, ExpandedName()));
+  }
+
+  // Whether a URDF or an SRDF says something there: other tools' elements may hold anything.
+  bool IsDescription(const XmlTag& tag) const {
+    static const std::set<std::string_view> kSaying = {"link",
+                                                       "joint",
+                                                       "group",
+                                                       "group_state",
+                                                       "end_effector",
+                                                       "virtual_joint",
+                                                       "passive_joint",
+                                                       "disable_collisions",
+                                                       "enable_collisions",
+                                                       "disable_default_collisions",
+                                                       "link_sphere_approximation"};
+    return open_.empty() || kSaying.contains(open_.size() > 1 ? open_[1].element : tag.element);
   }
 
   // arm.srdf.xacro becomes arm.srdf; a name that does not say what it is of, expanded.
@@ -234,6 +251,21 @@ void CheckProlog(std::string_view text, const std::string& origin) {
   }
 }
 
+// Parsers give names so, and what is noted by a name must be found by theirs.
+std::string WithoutEntities(std::string_view value) {
+  static constexpr std::pair<std::string_view, char> kEntities[] = {
+      {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  std::string text;
+  while (!value.empty()) {
+    const auto* const entity = std::ranges::find_if(
+        kEntities, [&](const auto& known) { return value.starts_with(known.first); });
+    const bool is_one = entity != std::end(kEntities);
+    text += is_one ? entity->second : value.front();
+    value.remove_prefix(is_one ? entity->first.size() : 1);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<XmlAttribute> XmlTag::Attributes() const {
@@ -260,7 +292,7 @@ std::vector<XmlAttribute> XmlTag::Attributes() const {
 
 std::optional<std::string> XmlTag::Attribute(std::string_view name) const {
   for (const XmlAttribute& attribute : Attributes()) {
-    if (attribute.name == name) return std::string(attribute.value);
+    if (attribute.name == name) return WithoutEntities(attribute.value);
   }
   return std::nullopt;
 }

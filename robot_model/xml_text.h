@@ -24,7 +24,8 @@ struct XmlTag {
 
   /// In order, up to what is no attribute.
   std::vector<XmlAttribute> Attributes() const;
-  /// The value of an attribute, nothing if the tag has none of that name.
+  /// The value of an attribute with characters for XML's own entities (`&amp;`), as parsers give
+  /// it; nothing if the tag has none of that name.
   std::optional<std::string> Attribute(std::string_view name) const;
 };
 

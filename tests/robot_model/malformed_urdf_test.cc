@@ -238,6 +238,22 @@ const MalformedUrdf kMalformed[] = {
      "<robot name='r'><link name='a'/>\n<joint name='j'>\n<parent "
      "link='a\x1b[2J'/></joint></robot>",
      {":3:", "<parent>", "control character", "\\x1b[2J"}},
+    {"NameOfTheRobotInXacro",
+     "\n<robot name='$(arg name)'><link name='a'/></robot>",
+     {":2:", "<robot>", "'$(arg name)'", "not expanded"}},
+    {"NamelessJoint",
+     "<robot name='r'><link name='a'/><link name='b'/>\n"
+     "<joint name='' type='fixed'><parent link='a'/><child link='b'/></joint></robot>",
+     {":2:", "<joint>", "empty"}},
+    {"NamelessLink", "<robot name='r'>\n<link name=''/></robot>", {":2:", "<link>", "empty"}},
+    {"MaterialTwice",
+     "<robot name='r'><link name='a'/><material name='m'><color rgba='1 1 1 1'/></material>\n"
+     "<material name='m'><color rgba='1 1 1 1'/></material></robot>",
+     {":2:", "'m'", "unique"}},
+    {"ColorOfAMaterial",
+     "<robot name='r'><link name='a'><visual><geometry><sphere radius='1'/></geometry>\n"
+     "<material name='m'><color rgba='255 255 255 1'/></material></visual></link></robot>",
+     {":2:", "[m]", "color"}},
     {"ClosedInDisorder",
      "<robot name='r'>\n<link name='a'>\n</robot>",
      {":3:", "</robot>", "<link> of line 2"}},
@@ -343,6 +359,25 @@ TEST(UrdfText, SeveralCollisionsAndElementsOfOtherToolsAreFine) {
       "<transmission name='t'><joint name='j'/><limit/><limit/></transmission></robot>",
       "r");
   EXPECT_EQ(model.links()[0].collision.size(), 2u);
+}
+
+TEST(UrdfText, NamesMayHoldWhatXmlWritesAsEntities) {
+  const auto joint = [](const std::string& name, const std::string& child) {
+    return "<joint name='" + name + "' type='revolute'><parent link='a'/><child link='" + child +
+           "'/>" + kLimit + "<safety_controller k_velocity='1' soft_lower_limit='0' " +
+           "soft_upper_limit='0.5'/></joint>";
+  };
+  const RobotModel model = RobotModel::FromUrdf(
+      "<robot name='r'><link name='a'/>\n<link name='b&amp;c'><collision><geometry>"
+      "<capsule radius='0.1' length='1'/></geometry></collision></link><link name='d'/>\n" +
+          joint("j&lt;&quot;&apos;&gt;", "b&amp;c") + joint("k", "d") + "</robot>",
+      "r");
+  ASSERT_EQ(model.joints().size(), 2u);
+  EXPECT_EQ(model.joints()[0].name, "j<\"'>");
+  EXPECT_EQ(model.joints()[0].where, "r:3: joint 'j<\"'>'");
+  EXPECT_EQ(model.joints()[0].upper, 0.5);
+  EXPECT_EQ(model.links()[1].where, "r:2: link 'b&c'");
+  EXPECT_EQ(model.links()[1].collision.size(), 3u);
 }
 
 TEST(UrdfText, TheHintToExpandXacroNamesAFileOfTheSameKind) {

@@ -537,7 +537,14 @@ INSTANTIATE_TEST_SUITE_P(
                       "<group_state name='up\ndown' group='a'/>",
                       {":3", "<group_state>", "one line"}},
         MalformedSrdf{"not_closed", "<group name='a'>", {":", "<group>"}},
-        MalformedSrdf{"xacro", "<xacro:include filename='x'/>", {":2", "xacro"}}),
+        MalformedSrdf{"xacro", "<xacro:include filename='x'/>", {":2", "xacro"}},
+        MalformedSrdf{"substitution",
+                      "<group name='a'><joint name='lift'/></group>\n<group_state "
+                      "name='s' group='$(arg group)'/>",
+                      {":3", "<group_state>", "'$(arg group)' is xacro"}},
+        MalformedSrdf{"substitution_within",
+                      "<group name='a'>\n<joint name='${prefix}lift'/></group>",
+                      {":3", "<joint>", "'${prefix}' is xacro"}}),
     [](const auto& test) { return test.param.name; });
 
 TEST(ParseSrdf, TheSrdfOfAnotherRobotIsToldByItsName) {
