@@ -7,8 +7,7 @@
 namespace planbench {
 namespace {
 
-constexpr double kLeastExtent = 1e-3;   // m
-constexpr double kGreatestExtent = 20;  // m
+constexpr double kLeastExtent = 1e-3;  // m
 
 }  // namespace
 

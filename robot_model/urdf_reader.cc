@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/error.h"
+#include "robot_model/odd_size.h"
 #include "robot_model/robot_model.h"
 #include "robot_model/urdf_document.h"
 #include "robot_model/urdf_remarks.h"
@@ -228,6 +229,12 @@ class UrdfConverter {
     } else {
       result->lower = -std::numeric_limits<double>::infinity();
       result->upper = std::numeric_limits<double>::infinity();
+      if (joint.limits != nullptr && joint.limits->lower != joint.limits->upper) {
+        Decide(
+            "lower and upper limits bound no continuous joint, and do not count; one that has "
+            "limits is revolute",
+            fmt::format("{} ([{:g}, {:g}])", joint.name, joint.limits->lower, joint.limits->upper));
+      }
     }
     if (joint.safety != nullptr) ApplySoftLimits(*joint.safety, result);
   }
@@ -397,22 +404,44 @@ std::string KeepWithinReason(Joint* joint) {
                      upper, joint->lower, joint->upper);
 }
 
-// A note on revolute joints that turn so far that degrees were probably meant; "" for none.
-std::string RemarkDegrees(const std::vector<Joint>& joints) {
+// How far from zero the limits of a joint reach, unless they stand for none.
+double FurthestLimit(const Joint& joint) {
+  const double furthest = std::max(-joint.lower, joint.upper);
+  return furthest > kWidestLimit ? 0 : furthest;
+}
+
+// Why the limits of a joint are probably in degrees; "" if they are not.
+std::string DoubtRadians(const Joint& joint) {
+  if (joint.type != JointType::kRevolute || FurthestLimit(joint) <= kFurthestTurn) return "";
+  return fmt::format(
+      "its limits [{}, {}] reach {:.3g} turns from zero; are they degrees? URDFs are in radians",
+      joint.lower, joint.upper, FurthestLimit(joint) / (2 * std::numbers::pi));
+}
+
+// Why the origin of a joint, or its limits, are probably in millimetres; "" if they are not.
+std::string DoubtMetres(const Joint& joint) {
+  constexpr const char* kMillimetres = "are they millimetres? URDFs are in metres";
+  const Vector3d& p = joint.X_PJ.translation();
+  if (p.cwiseAbs().maxCoeff() > kGreatestExtent) {
+    return fmt::format("its origin is at [{}, {}, {}] m; {}", p.x(), p.y(), p.z(), kMillimetres);
+  }
+  if (joint.type != JointType::kPrismatic || FurthestLimit(joint) <= kGreatestExtent) return "";
+  return fmt::format("its limits [{}, {}] reach {:g} m from zero; {}", joint.lower, joint.upper,
+                     FurthestLimit(joint), kMillimetres);
+}
+
+// A note on the joints that there is a doubt of, which it tells of the first; "" for none.
+std::string RemarkUnit(const std::vector<Joint>& joints, std::string (*doubt)(const Joint&)) {
   std::string note;
   std::vector<std::string> others;
   for (const Joint& joint : joints) {
-    const double furthest = std::max(-joint.lower, joint.upper);
-    if (joint.type != JointType::kRevolute) continue;
-    if (furthest <= kFurthestTurn || furthest > kWidestLimit) continue;
-    if (!note.empty()) {
+    const std::string here = doubt(joint);
+    if (here.empty()) continue;
+    if (note.empty()) {
+      note = fmt::format("{}: {}", joint.where, here);
+    } else {
       others.push_back(joint.name);
-      continue;
     }
-    note = fmt::format(
-        "{}: its limits [{}, {}] reach {:.3g} turns from zero; are they degrees? URDFs are in "
-        "radians",
-        joint.where, joint.lower, joint.upper, furthest / (2 * std::numbers::pi));
   }
   if (!others.empty()) note += fmt::format("; likewise {}", fmt::join(others, ", "));
   return note;
@@ -533,7 +562,10 @@ RobotModel RobotModel::FromUrdf(const std::string& urdf_text, const std::string&
     if (converter.MimicOf(model.joints_[j]) == nullptr) continue;
     FollowLeaders(converter, model, j, &model.joints_[j]);
   }
-  if (const std::string note = RemarkDegrees(model.joints_); !note.empty()) notes.push_back(note);
+  for (const auto& doubt : {DoubtRadians, DoubtMetres}) {
+    const std::string note = RemarkUnit(model.joints_, doubt);
+    if (!note.empty()) notes.push_back(note);
+  }
   const auto note_of = [&](const Joint& joint, const std::string& note) {
     if (!note.empty()) notes.push_back(joint.where + ": " + note);
   };

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <map>
 
@@ -69,6 +71,9 @@ class UnheededFinder {
       if (open_.back().known != nullptr) RemarkAttributes(*tag);
       if (tag->empty) open_.pop_back();
     }
+    if (num_in_degrees_ > 1) {
+      remarks_[in_degrees_] += fmt::format("; likewise {} more", num_in_degrees_ - 1);
+    }
   }
 
   const std::vector<std::string>& remarks() const { return remarks_; }
@@ -101,6 +106,7 @@ class UnheededFinder {
                               tag.element, attribute.name, meant));
     }
     if (tag.element == "axis" && open_[1].tag.Attribute("type") == "planar") RemarkPlane(tag);
+    if (tag.element == "origin") RemarkDegrees(tag);
   }
 
   void RemarkPlane(const XmlTag& axis) {
@@ -109,6 +115,20 @@ class UnheededFinder {
     Remark(axis,
            "<axis>: does not count; a planar joint moves along x and y of its frame and turns "
            "about z, as in MoveIt");
+  }
+
+  // No angle needs more than a turn: degrees are likelier. One remark tells of all.
+  void RemarkDegrees(const XmlTag& origin) {
+    constexpr double kFullTurn = 6.3;  // rad, with what 2 pi is rounded to.
+    const auto rpy = ReadNumbers(origin.Attribute("rpy").value_or(""));
+    if (!rpy) return;
+    const auto wide = std::ranges::find_if(*rpy, [](double a) { return std::abs(a) > kFullTurn; });
+    if (wide == rpy->end()) return;
+    if (num_in_degrees_++ > 0) return;
+    in_degrees_ = remarks_.size();
+    Remark(origin, fmt::format("<origin>: rpy turns by {:g} rad; are those degrees? URDFs are in "
+                               "radians",
+                               *wide));
   }
 
   // "joint 'name': " inside a link or joint.
@@ -124,6 +144,8 @@ class UnheededFinder {
   const std::string& origin_;
   std::vector<Open> open_;
   std::vector<std::string> remarks_;
+  int num_in_degrees_ = 0;      // Origins.
+  std::size_t in_degrees_ = 0;  // The remark that tells of them, if there is one.
 };
 
 }  // namespace

@@ -13,15 +13,16 @@
 namespace planbench {
 namespace {
 
-// Joint `j` with the limits [-1, 2] and a safety controller with these soft limits.
+// Joint `j` with the limits [-1, 2], unless it is continuous, and a safety controller with these
+// soft limits.
 Joint WithSoftLimits(const std::string& type, const std::string& soft,
                      std::vector<std::string>* warnings) {
   return RobotModel::FromUrdf(
              fmt::format("<robot name='r'><link name='a'/><link name='b'/>"
                          "<joint name='j' type='{}'><parent link='a'/><child link='b'/>"
-                         "<limit lower='-1' upper='2' velocity='1' effort='1'/>"
+                         "<limit {} velocity='1' effort='1'/>"
                          "<safety_controller k_velocity='1' {}/></joint></robot>",
-                         type, soft),
+                         type, type == "continuous" ? "" : "lower='-1' upper='2'", soft),
              "r.urdf", warnings)
       .joints()[0];
 }
@@ -107,6 +108,24 @@ INSTANTIATE_TEST_SUITE_P(
                        {"r.urdf: a soft limit (safety_controller) on one side bounds no continuous "
                         "joint, and does not count: j"}}),
     [](const auto& test) { return test.param.name; });
+
+TEST(ContinuousJoints, HaveNoLimitsThoughSomeAreGiven) {
+  std::string urdf = "<robot name='r'><link name='a'/>";
+  for (const char* limits : {"", "lower='-1' upper='2'", "lower='0' upper='0'", "upper='6.28'"}) {
+    urdf += fmt::format(
+        "<link name='l{0}'/><joint name='j{0}' type='continuous'><parent link='a'/>"
+        "<child link='l{0}'/><limit {1} velocity='1' effort='1'/></joint>",
+        urdf.size(), limits);
+  }
+  std::vector<std::string> warnings;
+  const RobotModel model = RobotModel::FromUrdf(urdf + "</robot>", "r.urdf", &warnings);
+  for (const Joint& joint : model.joints()) EXPECT_EQ(joint.upper, kEndless) << joint.name;
+  EXPECT_THAT(warnings,
+              testing::ElementsAre(fmt::format(
+                  "r.urdf: lower and upper limits bound no continuous joint, and do not count; one "
+                  "that has limits is revolute: {} ([-1, 2]), {} ([0, 6.28])",
+                  model.joints()[1].name, model.joints()[3].name)));
+}
 
 TEST(VelocityLimits, AreNoneWhereNoJointIsSoSlow) {
   std::string urdf = "<robot name='r'><link name='a'/>";

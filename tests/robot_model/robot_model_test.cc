@@ -77,7 +77,7 @@ TEST(RobotModelLimits, ThatAreProbablyInDegreesAreNamedOnce) {
   const RobotModel model = RobotModel::FromUrdf(
       "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>"
       "<joint name='i' type='prismatic'><parent link='a'/><child link='b'/>" +
-          limit("0", "100") +
+          limit("0", "20") +
           "\n<joint name='j' type='revolute'><parent link='b'/><child link='c'/>" +
           limit("-180", "180") +
           "<joint name='k' type='revolute'><parent link='c'/><child link='d'/>" +
@@ -88,6 +88,26 @@ TEST(RobotModelLimits, ThatAreProbablyInDegreesAreNamedOnce) {
   EXPECT_EQ(warnings[0],
             "r.urdf:2: joint 'j': its limits [-180, 180] reach 28.6 turns from zero; are they "
             "degrees? URDFs are in radians; likewise k");
+}
+
+TEST(RobotModelLimits, ThatAreProbablyInMillimetresAreNamedOnceAndOriginsToo) {
+  const auto joint = [](const char* name, const char* origin, const char* type, double upper) {
+    return fmt::format(
+        "<link name='{0}'/>\n<joint name='{0}' type='{2}'><parent link='a'/><child link='{0}'/>"
+        "<origin xyz='{1}'/><limit velocity='1' effort='1' lower='0' upper='{3}'/></joint>",
+        name, origin, type, upper);
+  };
+  std::vector<std::string> warnings;
+  RobotModel::FromUrdf("<robot name='r'><link name='a'/>" + joint("i", "20 0 0", "prismatic", 20) +
+                           joint("j", "0 -300 20", "revolute", 1) +
+                           joint("k", "0 0 0", "prismatic", 850) +
+                           joint("l", "0 0 0", "prismatic", 1e9) + "</robot>",
+                       "r.urdf", &warnings);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0],
+            "r.urdf:3: joint 'j': its origin is at [0, -300, 20] m; are they millimetres? URDFs "
+            "are in metres; likewise k");
+  EXPECT_NE(warnings[1].find("joint 'l': its limits"), std::string::npos) << warnings[1];
 }
 
 class RobotModelTest : public testing::Test {

@@ -58,6 +58,18 @@ TEST(UrdfRemarks, AxesOfPlanarJointsAreRemarkedWhereTheyAreNotZ) {
   EXPECT_THAT(planar(""), IsEmpty());
 }
 
+TEST(UrdfRemarks, AnglesOfOriginsThatAreProbablyInDegreesAreNamedOnce) {
+  EXPECT_THAT(Remarks("<link name='a'><visual><origin rpy='90 0 0'/></visual><collision>\n"
+                      "<origin rpy='0 -6.2832 3.14'/></collision></link>\n"
+                      "<joint name='j'><origin xyz='9 9 9'/></joint>"),
+              IsEmpty());
+  EXPECT_THAT(Remarks("<link name='a'><collision>\n<origin rpy='0 -90 0'/></collision></link>"
+                      "<joint name='j'><origin rpy='0 0 45'/></joint>"
+                      "<joint name='k'><origin rpy='180 0 45'/></joint>"),
+              ElementsAre("r.urdf:3: link 'a': <origin>: rpy turns by -90 rad; are those degrees? "
+                          "URDFs are in radians; likewise 2 more"));
+}
+
 TEST(UrdfRemarks, AreAmongTheWarningsOfTheModel) {
   std::vector<std::string> warnings;
   RobotModel::FromUrdf("<robot name='r'><link name='a'><Collision/></link></robot>", "r.urdf",
