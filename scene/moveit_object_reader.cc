@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/file_state.h"
+#include "common/numbers.h"
 #include "common/text.h"
 #include "geometry/meshes_in_use.h"
 #include "scene/moveit_fields.h"
@@ -387,12 +388,50 @@ void WarnOfPlanesAround(const SceneObject& object, const YamlNode& node) {
   }
 }
 
+// How far the nearest part of an object is from the robot's base, m, to its middle.
+double DistanceOf(const SceneObject& object) {
+  double least = kInfinity;
+  for (const PlacedShape& placed : object.shapes) {
+    if (std::holds_alternative<HalfSpace>(placed.shape)) return 0;
+    least = std::min(least, (object.X_WO * placed.X_FS.translation()).norm());
+  }
+  return least;
+}
+
+// Tells of objects that are so far away that their unit is wrong sooner than that they are meant to
+// be there: nothing else would, as all paths are free of them.
+class FarObjects {
+ public:
+  void Add(const YamlNode& id, const SceneObject& object) {
+    constexpr double kOutOfReach = 100;  // m
+    const double distance = DistanceOf(object);
+    if (distance <= kOutOfReach) return;
+    if (num_++ > 0) return;
+    first_.emplace(id);
+    first_distance_ = distance;
+  }
+
+  void Warn() const {
+    if (num_ == 0) return;
+    first_->Warn(fmt::format(
+        "'{}' is {:g} m from the robot's base; are its numbers millimetres? They are metres{}",
+        first_->String(), first_distance_,
+        num_ == 1 ? "" : fmt::format("; likewise {} more", num_ - 1)));
+  }
+
+ private:
+  std::optional<YamlNode> first_;
+  double first_distance_ = 0;
+  int num_ = 0;
+};
+
 // Adds the objects of world.collision_objects in the base frame, and their frames. One may be given
 // in the frame of one above it.
 void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, const Robot& robot,
                      FrameTree* frames, Scene* scene) {
   std::set<std::string> ids;
   const std::vector<YamlNode> nodes = OptionalElements(world, "collision_objects");
+  FarObjects far;
   for (const YamlNode& node : nodes) {
     if (const std::optional<YamlNode> id = node.Find("id")) frames->ExpectObject(id->String());
   }
@@ -406,9 +445,11 @@ void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, c
       continue;
     }
     WarnOfPlanesAround(object, node);
+    far.Add(node.At("id"), object);
     frames->SetObject(id, "", ReadFrames(node, object));
     scene->objects.push_back(std::move(object));
   }
+  far.Warn();
 }
 
 }  // namespace
@@ -441,9 +482,12 @@ Shape ReadPrimitive(const YamlNode& node) {
   const std::string type = ReadPrimitiveType(node.At("type"));
   const YamlNode dimensions = node.At("dimensions");
   const int count = type == "box" ? 3 : type == "sphere" ? 1 : 2;
-  dimensions.Doubles(count);
+  std::vector<YamlNode> elements = dimensions.Elements();
+  // Who always writes three leaves those at 0 that the shape does not have.
+  while (std::ssize(elements) > count && elements.back().Double() == 0) elements.pop_back();
+  if (std::ssize(elements) != count) dimensions.Doubles(count);
   std::vector<double> values;
-  for (const YamlNode& dimension : dimensions.Elements()) {
+  for (const YamlNode& dimension : elements) {
     values.push_back(dimension.PositiveDouble());
     if (values.back() > kLargestShape) {
       dimension.Fail(fmt::format("is more than {} m", kLargestShape));

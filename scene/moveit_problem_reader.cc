@@ -324,8 +324,8 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
     WarnOfMisspelledLinks(*matrix, robot.model, scene);
   }
 
-  problem.goal = ReadFor(
-      chosen, [&] { return ReadGoal(request, robot.model, group, at_start.positions, frames); });
+  problem.goal =
+      ReadFor(chosen, [&] { return ReadGoal(request, robot, group, at_start.positions, frames); });
   problem.workspace = ReadWorkspace(request, frames);
   // Nothing else tells of its frame, once all that is given in one is in the base frame.
   if (problem.workspace) {

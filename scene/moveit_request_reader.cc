@@ -13,6 +13,7 @@
 #include "scene/moveit_fields.h"
 #include "scene/moveit_messages.h"
 #include "scene/moveit_pose_goal.h"
+#include "scene/moveit_state_reader.h"
 
 namespace planbench {
 namespace {
@@ -150,9 +151,10 @@ JointSpace Narrowed(const JointSpace& space, const std::vector<JointGoal>& goals
   return JointSpace(std::move(joints));
 }
 
-std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const RobotModel& model,
+std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const Robot& robot,
                                         const PlanningGroup& group,
                                         const std::vector<double>& start, const FrameTree& frames) {
+  const RobotModel& model = robot.model;
   RefuseElements(constraints, "visibility_constraints",
                  "constraints on what is visible are not supported");
   const bool of_pose = HasPoseConstraints(constraints);
@@ -182,6 +184,7 @@ std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const Robot
       }
       goals.push_back(goal);
     } else {
+      RefuseVirtualJoint(name, robot);
       others.emplace_back(goal, name);
     }
   }
@@ -274,7 +277,7 @@ RequestGroup ReadGroup(const YamlNode& motion_plan_request, const Robot& robot) 
                            [&] { return &robot.Group(is_named ? name->String() : ""); })};
 }
 
-std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const RobotModel& model,
+std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const Robot& robot,
                                 const PlanningGroup& group, const std::vector<double>& start,
                                 const FrameTree& frames) {
   const YamlNode sets = motion_plan_request.At("goal_constraints");
@@ -283,7 +286,7 @@ std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const Robot
   std::optional<OutOfReach> fault;  // of the first set that has one
   for (const YamlNode& set : sets.Elements()) {
     try {
-      const auto alternatives = ReadAlternatives(set, model, group, start, frames);
+      const auto alternatives = ReadAlternatives(set, robot, group, start, frames);
       goal.insert(goal.end(), alternatives.begin(), alternatives.end());
     } catch (const OutOfReach& error) {
       if (sets.Size() > 1) set.Warn("is out of reach, and left out");

@@ -36,7 +36,7 @@ RequestGroup ReadGroup(const YamlNode& motion_plan_request, const Robot& robot);
 /// say nothing: of fixed joints at 0, of joints outside the group where they are at `start` (full
 /// positions), of joints that follow one of the group where that puts them. Goals name the joints
 /// in the group's order.
-std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const RobotModel& model,
+std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const Robot& robot,
                                 const PlanningGroup& group, const std::vector<double>& start,
                                 const FrameTree& frames);
 

@@ -65,8 +65,9 @@ void ReadParts(const Joint& joint, const RobotModel& model, const std::vector<Ya
   }
 }
 
-void ReadJointState(const YamlNode& node, const RobotModel& model, const JointSpace& group,
+void ReadJointState(const YamlNode& node, const Robot& robot, const JointSpace& group,
                     RobotStateFields* fields) {
+  const RobotModel& model = robot.model;
   fields->frame = ReadFrame(node);
   const std::vector<YamlNode> names = OptionalElements(node, "name");
   const std::vector<YamlNode> positions = OptionalElements(node, "position");
@@ -90,6 +91,7 @@ void ReadJointState(const YamlNode& node, const RobotModel& model, const JointSp
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = names[i].String();
     const double position = positions[i].Double();
+    RefuseVirtualJoint(names[i], robot);
     if (const std::optional<PosePart> part = FindPosePart(model, name)) {
       const std::string* const parts =
           &model.position_names()[static_cast<std::size_t>(part->position_index)];
@@ -282,11 +284,23 @@ std::vector<PlacedLink> OverlaidLinks(const std::vector<PlacedLink>& below,
 
 }  // namespace
 
+void RefuseVirtualJoint(const YamlNode& name, const Robot& robot) {
+  const std::string variable = name.String();
+  if (robot.model.FindJoint(variable) >= 0) return;
+  for (const VirtualJoint& joint : robot.virtual_joints) {
+    if (!(variable + "/").starts_with(joint.name + "/")) continue;
+    name.Fail(fmt::format(
+        "'{}' is of the virtual joint '{}', whose pose is read from multi_dof_joint_state, and "
+        "which no plan moves; name it there alone",
+        variable, joint.name));
+  }
+}
+
 RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot,
                                 const PlanningGroup& group) {
   RobotStateFields fields;
   if (const auto joint_state = robot_state.Find("joint_state")) {
-    ReadJointState(*joint_state, robot.model, group.space, &fields);
+    ReadJointState(*joint_state, robot, group.space, &fields);
   }
   if (const auto multi_dof = robot_state.Find("multi_dof_joint_state")) {
     ReadMultiDofState(*multi_dof, robot, &fields);

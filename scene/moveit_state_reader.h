@@ -31,6 +31,10 @@ struct RobotStateFields {
 RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot,
                                 const PlanningGroup& group);
 
+/// Refuses a name that is a virtual joint's, or one of its variables' ("world_joint/x"), where a
+/// position or a goal is given: such a joint has a pose, which no plan changes.
+void RefuseVirtualJoint(const YamlNode& name, const Robot& robot);
+
 /// `below` overlaid by `above`, which has the last word on the joints that it names. Throws
 /// InputError if both place the root link, but in different frames.
 RobotStateFields Overlaid(RobotStateFields below, const RobotStateFields& above);

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -169,6 +172,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "{\"type\": 'sphere', \"dimensions\": ['+0.05']}"},
         Dialect{"TypeAsNumber", "{type: sphere, dimensions: [0.05]}",
                 "{dimensions: [0.05], type: 2}"},
+        Dialect{"LengthsThatTheShapeLacksAtZero", "dimensions: [0.05]",
+                "dimensions: [0.05, 0, 0.0]"},
         Dialect{"TypeInCapitals", "type: cylinder", "type: CYLINDER"},
         Dialect{"NoOperation", "      operation: 0\n", ""},
         Dialect{"OperationAsWord", "operation: 0", "operation: ADD"},
@@ -262,6 +267,27 @@ TEST(MoveItReader, PosesOfShapesMayBeLeftOutBesideAnObjectPose) {
       "orientation: [0, 0, 0, 1]}, primitives: [{type: sphere, dimensions: [1]}]}]}");
   EXPECT_EQ(scene.objects[0].X_WO.translation(), Eigen::Vector3d(1, 2, 3));
   EXPECT_TRUE(scene.objects[0].shapes[0].X_FS.isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST(MoveItReader, ObjectsOutOfAllReachAreNamedOnce) {
+  const auto warnings = [](const std::string& positions_x) {
+    std::string objects;
+    std::string_view rest = positions_x;
+    for (int i = 0; !rest.empty(); ++i) {
+      const std::string_view x = rest.substr(0, rest.find(' '));
+      rest.remove_prefix(std::min(x.size() + 1, rest.size()));
+      objects += fmt::format(
+          "\n  - {{id: box_{}, primitives: [{{type: sphere, dimensions: [0.1]}}], primitive_poses: "
+          "[{{position: [{}, 0, 0], orientation: {{w: 1}}}}]}}",
+          i, x);
+    }
+    return ParseProblem("world:\n  collision_objects:" + objects).warnings;
+  };
+  EXPECT_THAT(warnings("99 0.9"), ElementsAre());
+  EXPECT_THAT(warnings("1 -900"),
+              ElementsAre("scene.yaml:4: world.collision_objects[1].id: 'box_1' is 900 m from the "
+                          "robot's base; are its numbers millimetres? They are metres"));
+  EXPECT_THAT(warnings("450 2 -900 1000"), ElementsAre(HasSubstr("metres; likewise 2 more")));
 }
 
 TEST(MoveItReader, PosesThatNothingGivesAreTheIdentityWithAWarning) {

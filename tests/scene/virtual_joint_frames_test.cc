@@ -191,5 +191,18 @@ TEST(Frames, VirtualJointsThatContradictAreNamed) {
          {"no joint 'world_joint'; its virtual joints are 'fly', 'drive'"});
 }
 
+TEST(Frames, VirtualJointsHaveNoPositions) {
+  for (const char* name : {"fly", "fly/trans_x"}) {
+    ExpectInputError(
+        [&] {
+          BallOfFloatingGripper(BallIn("odom", "robot_state:\n  joint_state: {name: [" +
+                                                   std::string(name) + "], position: [0]}\n"));
+        },
+        {"scene.yaml:3: robot_state.joint_state.name[0]: '" + std::string(name) +
+             "' is of the virtual joint 'fly'",
+         "multi_dof_joint_state"});
+  }
+}
+
 }  // namespace
 }  // namespace planbench
