@@ -24,14 +24,19 @@ std::string WithoutSlash(const std::string& frame) {
   return frame.substr(std::min(frame.find_first_not_of('/'), frame.size()));
 }
 
+std::string LinkNamed(const std::string& name, const RobotModel& model) {
+  return model.FindLink(name) >= 0 ? name : WithoutSlash(name);
+}
+
 FrameTree::FrameTree(const Robot& robot, const Stance& stance, const PlanningFrame& planning_frame,
                      const std::vector<FixedTransform>& transforms)
     : not_of_objects_{planning_frame.name} {
   const std::vector<Isometry3d> X_BL = ComputeLinkPoses(robot.model, stance.positions);
   for (int link = 0; link < robot.model.num_links(); ++link) {
     const auto l = static_cast<std::size_t>(link);
-    X_BF_[robot.model.links()[l].name] = X_BL[l];
-    not_of_objects_.insert(robot.model.links()[l].name);
+    const std::string frame = WithoutSlash(robot.model.links()[l].name);
+    X_BF_[frame] = X_BL[l];
+    not_of_objects_.insert(frame);
   }
   std::vector<FixedTransform> named = transforms;  // With the planning frame by its name.
   for (FixedTransform& transform : named) {
@@ -59,7 +64,7 @@ FrameTree::FrameTree(const Robot& robot, const Stance& stance, const PlanningFra
 
 void FrameTree::Place(const PlacedLink& placed, const std::string& frame, const RobotModel& model) {
   const std::string& link = model.links()[static_cast<std::size_t>(placed.link)].name;
-  const Isometry3d X_BF = X_BF_.at(link) * placed.X_FL.inverse(Eigen::Isometry);
+  const Isometry3d X_BF = PoseOf(link) * placed.X_FL.inverse(Eigen::Isometry);
   const auto [known, is_new] = X_BF_.try_emplace(frame, X_BF);
   not_of_objects_.insert(frame);
   if (is_new || Agree(known->second, X_BF)) return;
@@ -72,7 +77,7 @@ void FrameTree::PlaceSurroundings(const Robot& robot) {
   for (const VirtualJoint& joint : robot.virtual_joints) {
     const std::string frame = WithoutSlash(joint.parent_frame);
     const std::string& link = robot.model.links()[static_cast<std::size_t>(joint.child_link)].name;
-    X_BF_.try_emplace(frame, X_BF_.at(link));
+    X_BF_.try_emplace(frame, PoseOf(link));
     not_of_objects_.insert(frame);
   }
 }
@@ -207,7 +212,7 @@ void FrameTree::SetObjectsOf(const FrameTree& other) {
 }
 
 Isometry3d FrameTree::PoseOf(const std::string& link) const {
-  return link.empty() ? Isometry3d::Identity() : X_BF_.at(link);
+  return link.empty() ? Isometry3d::Identity() : X_BF_.at(WithoutSlash(link));
 }
 
 const FrameTree::PlacedObjectFrame* FrameTree::FindOfObject(const std::string& name) const {

@@ -52,6 +52,8 @@ struct ObjectFrame {
 
 /// A name of tf without its leading slashes.
 std::string WithoutSlash(const std::string& frame);
+/// The name of a link as the robot has it, be it with slashes; without them if there is none.
+std::string LinkNamed(const std::string& name, const RobotModel& model);
 
 /// Poses of named frames in the robot's base frame B (that of its root link), with the robot in one
 /// stance: the robot's links, its surroundings, the planning frame (also named ""), fixed frames,

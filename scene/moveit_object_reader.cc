@@ -295,7 +295,7 @@ std::string NoLink(const std::string& name, const Robot& robot) {
 std::vector<std::string> ReadTouchLinks(const YamlNode& attached, const Robot& robot) {
   std::vector<std::string> links;
   for (const YamlNode& node : OptionalElements(attached, "touch_links")) {
-    const std::string link = WithoutSlash(ReadName(node));
+    const std::string link = LinkNamed(ReadName(node), robot.model);
     if (link.empty()) node.Fail("must not be empty");
     if (robot.model.FindLink(link) < 0) {
       node.Warn(NoLink(link, robot) +
@@ -311,7 +311,7 @@ AttachedObject ReadAttachedObject(const YamlNode& node, const AttachedObject* kn
                                   const Scene& scene, FrameTree* frames) {
   AttachedObject attached;
   const YamlNode link = node.At("link_name");
-  attached.link = WithoutSlash(link.String());
+  attached.link = LinkNamed(link.String(), robot.model);
   if (robot.model.FindLink(attached.link) < 0) link.Fail(NoLink(attached.link, robot));
   attached.touch_links = ReadTouchLinks(node, robot);
   const YamlNode object = node.At("object");

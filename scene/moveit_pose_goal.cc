@@ -151,7 +151,7 @@ struct ConstrainedLink {
 // The link of a frame that a constraint names, and the frame in it.
 FrameTree::InLink ReadConstrainedFrame(const YamlNode& node, const RobotModel& model,
                                        const FrameTree& frames) {
-  const std::string name = WithoutSlash(node.String());
+  const std::string name = LinkNamed(node.String(), model);
   if (model.FindLink(name) >= 0) return {name, Eigen::Isometry3d::Identity()};
   const std::optional<FrameTree::InLink> of_object = frames.OfObject(name);
   if (!of_object) {

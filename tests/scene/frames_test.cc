@@ -95,6 +95,38 @@ TEST(Frames, LeadingSlashesDoNotCount) {
   }
 }
 
+TEST(Frames, OfLinksWhoseNamesBeginWithASlash) {
+  Robot robot;
+  robot.name = "fetch";
+  robot.model = RobotModel::FromUrdf(
+      "<robot name='r'><link name='/base'/><link name='/hand'/><joint name='j' type='revolute'>"
+      "<parent link='/base'/><child link='/hand'/><origin xyz='0 1 0'/><axis xyz='0 0 1'/>"
+      "<limit lower='-1' upper='1' velocity='1' effort='1'/></joint></robot>",
+      "r.urdf");
+  robot.groups = {robot.model.MakeGroup("arm", {"j"}, "/hand")};
+  for (const char* hand : {"hand", "/hand"}) {
+    const std::string attached =
+        "robot_state: {attached_collision_objects: [{link_name: /hand, touch_links: [/hand], "
+        "object: {id: tool, header: {frame_id: " +
+        std::string(hand) + "}, primitives: [{type: sphere, dimensions: [0.1]}], " +
+        "primitive_poses: [{orientation: {w: 1}}]}}]}\n";
+    const Problem problem =
+        ParseProblem(YamlNode::Parse(BallIn(hand, attached), "scene.yaml"),
+                     YamlNode::Parse("start_state: {joint_state: {name: [j], position: [0]}}\n"
+                                     "goal_constraints: [{position_constraints: [{header: "
+                                     "{frame_id: /base}, link_name: /hand, constraint_region: "
+                                     "{primitives: [{type: 2, dimensions: [0.1]}], "
+                                     "primitive_poses: [{position: [0, 1, 0], orientation: "
+                                     "[0, 0, 0, 1]}]}}]}]\n",
+                                     "request.yaml"),
+                     robot, {});
+    ExpectAt(PlaceOf(problem.scene.objects.at(0)), 1, 1, 0);
+    EXPECT_EQ(problem.scene.attached.at(0).link, "/hand");
+    ExpectAt(PlaceOf(problem.scene.attached.at(0).object), 0, 0, 0);
+    EXPECT_TRUE(problem.warnings.empty());
+  }
+}
+
 // The farthest first, which is the order that takes longest if the list is gone through for each.
 TEST(Frames, ALongChainIsFollowedInOneWalk) {
   constexpr int kLength = 20000;
