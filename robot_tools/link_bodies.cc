@@ -1,6 +1,7 @@
 #include "robot_tools/link_bodies.h"
 
 #include <fmt/format.h>
+#include <tinyxml2.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -125,6 +126,21 @@ LinkBodies ReadLinkBodies(const RobotModel& model, const ResourceResolver& resou
     read.bodies.push_back(std::move(body));
   }
   return read;
+}
+
+std::vector<std::string> LinksDrawnOnly(const std::string& urdf_text) {
+  std::vector<std::string> names;
+  tinyxml2::XMLDocument document;
+  document.Parse(urdf_text.data(), urdf_text.size());
+  const tinyxml2::XMLElement* robot = document.RootElement();
+  const auto* link = robot == nullptr ? nullptr : robot->FirstChildElement("link");
+  for (; link != nullptr; link = link->NextSiblingElement("link")) {
+    const char* name = link->Attribute("name");
+    const bool is_drawn = link->FirstChildElement("visual") != nullptr;
+    const bool has_body = link->FirstChildElement("collision") != nullptr;
+    if (name != nullptr && is_drawn && !has_body) names.emplace_back(name);
+  }
+  return names;
 }
 
 std::vector<LinkSphere> ToLinkSpheres(const LinkBodies& links,

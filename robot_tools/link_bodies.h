@@ -32,6 +32,9 @@ void RemarkSizes(const RobotModel& model, const ResourceResolver& resources, con
 LinkBodies ReadLinkBodies(const RobotModel& model, const ResourceResolver& resources,
                           const SayLine& say);
 
+/// The links that the text of a URDF draws (<visual>) and gives no <collision>, in its order.
+std::vector<std::string> LinksDrawnOnly(const std::string& urdf_text);
+
 /// The sets, one for each of the links, as one sphere model.
 std::vector<LinkSphere> ToLinkSpheres(const LinkBodies& links,
                                       const std::vector<std::vector<Ball>>& sets);

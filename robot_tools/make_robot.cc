@@ -70,6 +70,7 @@ class RobotMaker {
     ReadSrdf();
     MakeGroups();
     MakeSpheres();
+    SayWhatIsOnlyDrawn();
     MakePairs();
     CheckStates();
     robot().edge_resolution_m = SuggestEdgeResolution(robot());
@@ -244,6 +245,19 @@ class RobotMaker {
     if (draft_.links_without_spheres.empty()) return;
     Say("  without, though they have a body in the URDF, so that they are not checked: {}",
         fmt::join(draft_.links_without_spheres, ", "));
+  }
+
+  // Nothing else would tell that such a link goes through everything.
+  void SayWhatIsOnlyDrawn() {
+    std::vector<std::string> names = LinksDrawnOnly(draft_.urdf_text);
+    std::erase_if(names, [&](const std::string& name) {
+      const int link = robot().model.FindLink(name);
+      return link < 0 || HasBody(link);  // By spheres of another file.
+    });
+    if (names.empty()) return;
+    Say("  drawn (<visual>) without collision geometry, so that nothing is checked against them: "
+        "{}",
+        fmt::join(names, ", "));
   }
 
   static std::vector<OuterSet> Fit(const std::vector<LinkBody>& bodies, const FitGoal& goal) {

@@ -119,6 +119,21 @@ TEST_F(MakeRobotTest, ShapesInMillimetresAreNamed) {
   EXPECT_THAT(Make(), HasSubstr("link 'hook': a shape is 120 m large"));
 }
 
+TEST_F(MakeRobotTest, LinksThatAreOnlyDrawnAreNamed) {
+  EXPECT_THAT(Make(), testing::Not(HasSubstr("drawn")));
+  std::string urdf = kCraneUrdf;
+  const std::string eye = "<link name=\"eye\"/>";
+  urdf.replace(
+      urdf.find(eye), eye.size(),
+      "<link name=\"eye\"><visual><geometry><box size='1 1 1'/></geometry></visual></link>");
+  folder_.Write("in/crane.urdf", urdf);
+  flags_.replace = true;
+  EXPECT_THAT(Make(), HasSubstr("drawn (<visual>) without collision geometry, so that nothing is "
+                                "checked against them: eye\n"));
+  Spheres("links: {eye: [{center: [0, 0, 0], radius: 0.1}]}");
+  EXPECT_THAT(Make(), testing::Not(HasSubstr("drawn")));
+}
+
 TEST_F(MakeRobotTest, SizesAreToldWithoutSpheresToo) {
   folder_.Write("in/hook.obj", MeshAsObj(TorusMesh(100, 30, 20, 10)));
   folder_.Write("in/base.obj", MeshAsObj(TorusMesh(0.1, 0.03, 20, 10)));
