@@ -183,7 +183,8 @@ void RequireAddOperation(const YamlNode& object) {
   const std::optional<int> byte = operation->RawByte();
   const std::string text = byte ? std::to_string(*byte) : LowerCase(operation->String());
   if (text != "0" && text != "add") {
-    operation->Fail("only the operation ADD (0) is supported, found '" + text + "'");
+    operation->Fail("only the operation ADD (0) is supported, found '" + text +
+                    "'; write what there is once all operations are done");
   }
 }
 

@@ -27,7 +27,8 @@ double ReadTolerance(const YamlNode& constraint, const std::string& key) {
 }
 
 void RefusePathConstraints(const YamlNode& request) {
-  constexpr const char* kWhy = "constraints on the path are not supported";
+  constexpr const char* kWhy =
+      "constraints on the path are not supported; leave them out to plan without";
   if (const std::optional<YamlNode> path = request.Find("path_constraints")) {
     for (const char* kind : {"joint_constraints", "position_constraints", "orientation_constraints",
                              "visibility_constraints"}) {

@@ -1,5 +1,7 @@
 #include "scene/moveit_scene_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <string>
@@ -52,7 +54,10 @@ void RequireScene(const YamlNode& planning_scene) {
        {std::tuple{"link_padding", "padding", 0.0}, std::tuple{"link_scale", "scale", 1.0}}) {
     for (const YamlNode& element : OptionalElements(planning_scene, list)) {
       const YamlNode value = element.At(field);
-      if (value.Double() != neutral) value.Fail(std::string(list) + " is not supported");
+      if (value.Double() != neutral) {
+        value.Fail(
+            fmt::format("{} is not supported; only {:g} is, which changes nothing", list, neutral));
+      }
     }
   }
   if (const auto is_diff = planning_scene.Find("is_diff"); is_diff && ReadFlag(*is_diff)) {
