@@ -93,23 +93,21 @@ class ElementFinder {
         if (tag.Attribute("soft_upper_limit")) document_.with_soft_upper.insert(joint);
       }
     }
-    const std::optional<std::string> name = tag.Attribute("name");
-    if (!name) return;
+    const std::string name = tag.Attribute("name").value_or("");
     // What is not empty defines one, be it within a link.
-    if (tag.element == "material" && !tag.empty && !name->empty()) {
-      document_.material_lines.insert_or_assign(*name, tag.line);
+    if (tag.element == "material" && !tag.empty && !name.empty()) {
+      document_.material_lines.insert_or_assign(name, tag.line);
     }
-    if (open_.size() != 1) return;
-    if (name->empty() && (tag.element == "link" || tag.element == "joint")) {
-      throw InputError(
-          fmt::format("{}:{}: <{}>: its name is empty", origin_, tag.line, tag.element));
+    if (open_.size() != 1 || (tag.element != "link" && tag.element != "joint")) return;
+    if (name.empty()) {
+      throw InputError(fmt::format("{}:{}: <{}>: has no name", origin_, tag.line, tag.element));
     }
     if (tag.element == "link") {
-      document_.link_lines.try_emplace(*name, tag.line);
-    } else if (tag.element == "joint") {
-      document_.joint_lines.try_emplace(*name, tag.line);
-      document_.joint_order.try_emplace(*name, static_cast<int>(document_.joint_order.size()));
-      joints_.push_back({*name, tag.line, "", ""});
+      document_.link_lines.try_emplace(name, tag.line);
+    } else {
+      document_.joint_lines.try_emplace(name, tag.line);
+      document_.joint_order.try_emplace(name, static_cast<int>(document_.joint_order.size()));
+      joints_.push_back({name, tag.line, "", ""});
     }
   }
 

@@ -28,7 +28,7 @@ struct UrdfDocument {
 
 /// Parses URDF text, of version 1.0 to 1.2, with urdfdom. Throws InputError with what urdfdom
 /// reported (it is not printed), and for what it would not report: text that is no UTF-8, xacro
-/// that is not expanded, a second element where one counts, links and joints of an empty name.
+/// that is not expanded, a second element where one counts, links and joints without a name.
 /// `origin` names the text.
 UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& origin);
 

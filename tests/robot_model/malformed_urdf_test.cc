@@ -244,8 +244,9 @@ const MalformedUrdf kMalformed[] = {
     {"NamelessJoint",
      "<robot name='r'><link name='a'/><link name='b'/>\n"
      "<joint name='' type='fixed'><parent link='a'/><child link='b'/></joint></robot>",
-     {":2:", "<joint>", "empty"}},
-    {"NamelessLink", "<robot name='r'>\n<link name=''/></robot>", {":2:", "<link>", "empty"}},
+     {":2:", "<joint>", "no name"}},
+    {"NamelessLink", "<robot name='r'>\n<link name=''/></robot>", {":2:", "<link>", "no name"}},
+    {"LinkThatHasNoName", "<robot name='r'>\n<link/></robot>", {":2:", "<link>", "no name"}},
     {"MaterialTwice",
      "<robot name='r'><link name='a'/><material name='m'><color rgba='1 1 1 1'/></material>\n"
      "<material name='m'><color rgba='1 1 1 1'/></material></robot>",
