@@ -57,28 +57,23 @@ class HullPlanes {
     Plane& last = buffers_.PlaneOf(a, b);
     Plane plane = last;
     const bool known = plane.a == a && plane.b == b;
-    if (known) {
-      lanes = NotBetween(plane, hull_b, least, motion, lanes);
-    } else {  // In each lane, one across the line between the middles.
-      const Points d = placement_.Position(a) - placement_.Position(b);
-      const V gap = LeastAlong(robot_.points + hull_a.first, hull_a.num,
-                               placement_.PosesOf(body_a_).InverseRotate(d)) +
-                    LeastBeyond(hull_b, d);
-      lanes = Within(gap, d, SquaredNorm(d), least, motion, lanes);
-    }
+    if (known) lanes = NotBetween(plane, hull_b, least, motion, lanes);
+    // Stretches of a motion are alike, and so are the planes between what moves; configurations
+    // need not be.
+    if (!known || !Motion::kMoves) lanes = NotAcrossMiddles(a, b, least, motion, lanes);
     if (None(lanes)) return lanes;
-    if (!known) {
-      plane.a = a;
-      plane.b = b;
-      Difference(placement_.node(a).center, placement_.node(b).center,
-                 Relation(std::countr_zero(Bits(lanes))), plane.direction);
-    }
+    plane.a = a;
+    plane.b = b;
     alignas(64) float margins[kBlock];
     Store(Fill(least) + motion.most(), margins);
-    // Configurations of a block are alike, and so are those of the next: a plane found in one lane
-    // is the first that is tried in others, and where one lane has none these are not asked.
-    while (!None(lanes)) {
+    // A plane found in one lane is tried in the others at once, and is the first that is tried when
+    // the same two are asked for again; where one lane has none these are not asked.
+    for (bool guessed = known && Motion::kMoves; !None(lanes); guessed = Motion::kMoves) {
       const int lane = std::countr_zero(Bits(lanes));
+      if (!guessed) {
+        Difference(placement_.node(a).center, placement_.node(b).center, Relation(lane),
+                   plane.direction);
+      }
       if (HullGap(robot_, hull_a, hull_b, Relation(lane), margins[lane], plane.direction) == 0) {
         break;
       }
@@ -106,6 +101,19 @@ class HullPlanes {
 
  private:
   const NodeHull& HullOf(int node) const { return robot_.hulls[static_cast<std::size_t>(node)]; }
+
+  /// Lanes, of those given, in which no plane across the line between the middles of two nodes is
+  /// between their hulls.
+  template <typename Motion>
+  HWY_INLINE M NotAcrossMiddles(int a, int b, float least, const Motion& motion, M lanes) const {
+    if (None(lanes)) return lanes;
+    const NodeHull& hull_a = HullOf(a);
+    const Points d = placement_.Position(a) - placement_.Position(b);
+    const V gap = LeastAlong(robot_.points + hull_a.first, hull_a.num,
+                             placement_.PosesOf(body_a_).InverseRotate(d)) +
+                  LeastBeyond(HullOf(b), d);
+    return Within(gap, d, SquaredNorm(d), least, motion, lanes);
+  }
 
   /// Lanes, of those given, in which a plane found before is not between its hulls, of which b is
   /// given.
