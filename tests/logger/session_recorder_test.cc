@@ -193,7 +193,8 @@ TEST_F(SessionRecorderTest, RunJsonIsWrittenBesideItsPlaceAndNoOtherFileIsTouche
   recorder->Record(Received(channel::kSession, FinishedSession()));
   EXPECT_EQ(TextOf(Folder() / "run.json.part"), "another's");
   for (const auto& entry : std::filesystem::directory_iterator(Folder())) {
-    if (entry.path().extension() == ".part") EXPECT_EQ(entry.path().filename(), "run.json.part");
+    if (entry.path().extension() != ".part") continue;
+    EXPECT_EQ(entry.path().filename(), "run.json.part");
   }
 }
 
