@@ -144,8 +144,8 @@ Path ResolveInitialPath(const PlanningGroup& group, const ResolvedQuery& query,
   if (!(space.Distance(resolved.front(), query.start) <= kStartRounding)) {
     throw InputError(origin + ": initial_path does not begin at the start");
   }
-  resolved.front() =
-      query.start;  // A path of one waypoint is one only if the start is in the goal.
+  // A path of one waypoint is one only if the start is in the goal.
+  resolved.front() = query.start;
   if (std::none_of(query.goals.begin(), query.goals.end(),
                    [&](const GoalBox& goal) { return goal.Contains(space, resolved.back()); })) {
     throw InputError(origin + ": initial_path does not end in a goal");
