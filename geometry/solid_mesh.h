@@ -30,7 +30,8 @@ class SolidMesh {
   const std::vector<Eigen::Vector3d>& component_points() const { return component_points_; }
   /// True if closed components enclose the point: those of consistent orientation by a winding
   /// number that is not 0 (so that overlapping solids join and inverted ones are cavities), others
-  /// by an odd number of crossings. Right for all points but those within rounding of the surface.
+  /// by an odd number of crossings. Right for all points but those within rounding of the surface,
+  /// or as near to a sliver as that is to its line (AsLine).
   bool Contains(const Eigen::Vector3d& point) const;
 
  private:
