@@ -72,9 +72,18 @@ class OmplSampler final : public ob::StateSampler {
   }
   void sampleUniformNear(ob::State* state, const ob::State* near, double distance) override {
     ++*num_samples_;
-    for (unsigned int j = 0; j < space_->getDimension(); ++j) {
-      const double offset = distance * (2 * UniformFraction(sampler_.generator()) - 1);
-      OmplPositions(state)[j] = OmplPositions(near)[j] + offset;
+    // Within the limits, as OMPL's own spaces have it. What is drawn beyond them and brought back
+    // stands at a limit: half of the joints, where motions are as long as joints can turn.
+    const JointSpace& joints = OmplSpaceOf(near).joints();
+    for (int j = 0; j < joints.size(); ++j) {
+      const JointSpace::Joint& joint = joints.joint(j);
+      const double center = OmplPositions(near)[j];
+      const double reach = joint.continuous ? std::min(distance, kPi) : distance;
+      const double least =
+          joint.continuous ? center - reach : std::max(joint.lower, center - reach);
+      const double most = joint.continuous ? center + reach : std::min(joint.upper, center + reach);
+      const double fraction = UniformFraction(sampler_.generator());
+      OmplPositions(state)[j] = least + fraction * (most - least);
     }
     space_->enforceBounds(state);
   }

@@ -162,6 +162,36 @@ TEST_P(OmplSamplerTest, SamplesNearAConfigurationStayNearAndWithinLimits) {
   }
 }
 
+TEST_P(OmplSamplerTest, SamplesNearAConfigurationDoNotGatherAtTheLimits) {
+  space_->SeedSamplers(GetParam(), 1);
+  const ob::StateSamplerPtr sampler = space_->allocStateSampler();
+  const ob::ScopedState<> center = State({3, 1.5, 0.3, 0});
+  ob::ScopedState<> state(space_);
+  constexpr int kSamples = 1000;
+  std::vector<double> sums(4);
+  for (int i = 0; i < kSamples; ++i) {
+    sampler->sampleUniformNear(state.get(), center.get(), 1);
+    const double* q = OmplPositions(state.get());
+    EXPECT_NE(q[1], 2);
+    EXPECT_NE(q[2], 0);
+    EXPECT_NE(q[2], 0.4);
+    for (int j = 0; j < 4; ++j) {
+      sums[static_cast<std::size_t>(j)] +=
+          joints_.Difference(j, OmplPositions(center.get())[j], q[j]);
+    }
+  }
+  // From 1 below to what the limits leave above.
+  EXPECT_NEAR(sums[0] / kSamples, 0, 0.1);
+  EXPECT_NEAR(sums[1] / kSamples, -0.25, 0.1);
+  EXPECT_NEAR(sums[2] / kSamples, -0.1, 0.03);
+
+  // Further than there is anything: anywhere, and no number is lost.
+  for (int i = 0; i < 100; ++i) {
+    sampler->sampleUniformNear(state.get(), center.get(), 1e308);
+    EXPECT_TRUE(space_->satisfiesBounds(state.get()));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Samplers, OmplSamplerTest,
                          testing::Values(SamplerKind::kUniform, SamplerKind::kHalton),
                          [](const auto& info) { return std::string(EnumName(info.param)); });
