@@ -148,7 +148,10 @@ class GoalBoxRegion final : public ob::GoalSampleableRegion {
       : ob::GoalSampleableRegion(si),
         space_(space),
         box_(box),
-        sampler_(space.joints(), box, seed) {}
+        sampler_(space.joints(), box, seed) {
+    // What is sampled of a goal many turns away is off it by the rounding of the turns.
+    setThreshold(GoalBox::kRounding);
+  }
 
   double distanceGoal(const ob::State* state) const override {
     const JointSpace& joints = space_.joints();

@@ -5,7 +5,6 @@
 namespace planbench {
 
 bool GoalBox::Contains(const JointSpace& space, std::span<const double> q) const {
-  constexpr double kRounding = 1e-9;  // rad or m
   for (int j = 0; j < space.size(); ++j) {
     const auto k = static_cast<std::size_t>(j);
     const double offset = space.Difference(j, nominal[k], q[k]);

@@ -247,6 +247,17 @@ TEST_F(RrtcPlannerTest, OmplsPlannersCountWhatTheyDraw) {
   }
 }
 
+TEST_F(RrtcPlannerTest, OmplsPlannersReachGoalsManyTurnsAway) {
+  for (const OmplAlgorithm& algorithm : OmplAlgorithms()) {
+    PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {1000, 0.5, 0});
+    request.time_limit_s = 20;
+    const auto planner =
+        MakeRrtcPlanner(robot_, Settings(fmt::format("algorithm: {}", algorithm.name)));
+    const PlanResult result = planner->Plan(request, EmptyPlanarScene(), nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kSolved) << algorithm.name << ": " << result.message;
+  }
+}
+
 TEST_F(RrtcPlannerTest, DescribesOmplsPlannersUnderTheirNames) {
   const PlannerDescription description =
       MakeRrtcPlanner(robot_, Settings("{algorithm: BITstar, ompl: {samples_per_batch: 50}}"))
