@@ -108,8 +108,8 @@ int RrtConnect::Extend(int k, double* reached) {
   std::copy_n(ends_.data() + At(k), n, reached);
   if (!candidate.end_passes || !IsValidEdge(nodes.Positions(candidate.near.node), reached)) {
     if (settings_->domain_radius > 0) {
-      domain = std::isinf(domain) ? settings_->domain_radius
-                                  : std::max(range_, domain * (1 - kDomainChange));
+      domain = std::max(
+          range_, std::isinf(domain) ? settings_->domain_radius : domain * (1 - kDomainChange));
     }
     return -1;
   }

@@ -23,7 +23,8 @@ namespace planbench {
 /// Where a search is stuck almost every extension fails, and almost every failure is a collision at
 /// the extension's far end. So the extensions towards the next samples are prepared together and
 /// their far ends are checked in one batch; they are then taken in order, and when one changes a
-/// tree the ones after it are prepared anew. The result is that of one sample at a time.
+/// tree the ones after it are prepared anew. The result is that of one sample at a time, where
+/// goals are drawn and the range shrinks between batches.
 class RrtConnect {
  public:
   /// `joints` must outlive it.
@@ -57,7 +58,7 @@ class RrtConnect {
     bool end_passes = false;  ///< If not, it is invalid.
   };
 
-  /// Ends of a way from start to goal: nodes at the same place, one of each tree.
+  /// Nodes that a free motion joins, one of each tree: a way leads through them from start to goal.
   struct Meeting {
     int start_node = -1;
     int goal_node = -1;

@@ -450,6 +450,20 @@ TEST_F(RrtcPlannerTest, ADynamicDomainTurnsSamplesAway) {
   EXPECT_LT(result.counters.at("out_of_domain"), result.counters.at("iterations"));
 }
 
+TEST_F(RrtcPlannerTest, ADynamicDomainHasTheRangeAtLeast) {
+  const auto with = [&](const std::string& radius) {
+    return MakeRrtcPlanner(robot_,
+                           Settings("{range: 0.5, extension: step, domain_radius: " + radius + "}"))
+        ->Plan(MakeRequest(robot_, {0.25, 0, 0}, {-0.25, 0, 0}), PostsScene(), nullptr);
+  };
+  const PlanResult result = with("1e-9");
+  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  EXPECT_GT(result.counters.at("out_of_domain"), 0);
+  const PlanResult larger = with("0.4");
+  EXPECT_EQ(result.path, larger.path);
+  EXPECT_EQ(result.counters, larger.counters);
+}
+
 TEST_F(RrtcPlannerTest, SolvesPublishedProblems) {
   PLANBENCH_NEED_SHARED_DATA("problems/table_pick_fetch");
   const Robot fetch = LoadFetch();
