@@ -128,16 +128,17 @@ class PunctualRoadmap final : public OneQueryRoadmap<LazyRoadmap> {
 };
 
 using enum PlannerClass;
+constexpr bool kDrawsNear = true;
 constexpr std::array kAlgorithms = {
     OmplAlgorithm{"ABITstar", kSearchAndSample, true, false, Make<og::ABITstar>},
     OmplAlgorithm{"BITstar", kSearchAndSample, true, false, Make<og::BITstar>},
-    OmplAlgorithm{"BKPIECE1", kSamplingGuided, false, true, Make<og::BKPIECE1>},
-    OmplAlgorithm{"BiEST", kSamplingGuided, false, true, Make<og::BiEST>},
+    OmplAlgorithm{"BKPIECE1", kSamplingGuided, false, true, Make<og::BKPIECE1>, {}, kDrawsNear},
+    OmplAlgorithm{"BiEST", kSamplingGuided, false, true, Make<og::BiEST>, {}, kDrawsNear},
     OmplAlgorithm{"BiTRRT", kSamplingGuided, false, true, MakeScanning<og::BiTRRT>},
-    OmplAlgorithm{"EST", kSamplingGuided, false, false, Make<og::EST>},
+    OmplAlgorithm{"EST", kSamplingGuided, false, false, Make<og::EST>, {}, kDrawsNear},
     OmplAlgorithm{"InformedRRTstar", kSamplingGuided, true, false, Make<og::InformedRRTstar>},
-    OmplAlgorithm{"KPIECE1", kSamplingGuided, false, false, Make<og::KPIECE1>},
-    OmplAlgorithm{"LBKPIECE1", kSamplingGuided, false, true, Make<og::LBKPIECE1>},
+    OmplAlgorithm{"KPIECE1", kSamplingGuided, false, false, Make<og::KPIECE1>, {}, kDrawsNear},
+    OmplAlgorithm{"LBKPIECE1", kSamplingGuided, false, true, Make<og::LBKPIECE1>, {}, kDrawsNear},
     OmplAlgorithm{"LazyPRM", kSampleThenSearch, false, true, Make<PunctualRoadmap<og::LazyPRM>>},
     OmplAlgorithm{"LazyPRMstar", kSampleThenSearch, false, true,
                   Make<PunctualRoadmap<og::LazyPRMstar>>},
@@ -145,14 +146,14 @@ constexpr std::array kAlgorithms = {
     OmplAlgorithm{"PRM", kSampleThenSearch, false, true, Make<RepeatablePrm<false>>, "grown only"},
     OmplAlgorithm{"PRMstar", kSampleThenSearch, false, true, Make<RepeatablePrm<true>>,
                   "grown only"},
-    OmplAlgorithm{"ProjEST", kSamplingGuided, false, false, Make<og::ProjEST>},
+    OmplAlgorithm{"ProjEST", kSamplingGuided, false, false, Make<og::ProjEST>, {}, kDrawsNear},
     OmplAlgorithm{"RRT", kSamplingGuided, false, false, MakeScanning<og::RRT>},
     OmplAlgorithm{"RRTConnect", kSamplingGuided, false, true, MakeScanning<og::RRTConnect>},
     OmplAlgorithm{"RRTXstatic", kSamplingGuided, true, false, Make<og::RRTXstatic>},
     OmplAlgorithm{"RRTsharp", kSamplingGuided, true, false, Make<og::RRTsharp>},
     OmplAlgorithm{"RRTstar", kSamplingGuided, true, false, Make<og::RRTstar>},
-    OmplAlgorithm{"SBL", kSamplingGuided, false, true, Make<og::SBL>},
-    OmplAlgorithm{"STRIDE", kSamplingGuided, false, false, Make<og::STRIDE>},
+    OmplAlgorithm{"SBL", kSamplingGuided, false, true, Make<og::SBL>, {}, kDrawsNear},
+    OmplAlgorithm{"STRIDE", kSamplingGuided, false, false, Make<og::STRIDE>, {}, kDrawsNear},
     OmplAlgorithm{"TRRT", kSamplingGuided, false, false, Make<og::TRRT>},
 };
 

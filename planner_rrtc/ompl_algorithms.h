@@ -21,6 +21,8 @@ struct OmplAlgorithm {
   ompl::base::PlannerPtr (*make)(const ompl::base::SpaceInformationPtr& si);
   /// What is not as in OMPL, for its name; empty: nothing.
   std::string_view variant = {};
+  /// Draws configurations near those it has, none from the whole space.
+  bool draws_near = false;
 };
 
 /// Those offered, by name: single-threaded ones that need nothing but a space, a validator and a

@@ -64,8 +64,14 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   node.RequireValues();
   RrtcSettings settings = defaults;
   if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
-  if (const auto value = node.Find("sampler")) settings.sampler = value->Enum<SamplerKind>();
   const bool is_ompl = settings.ompl_algorithm != nullptr;
+  if (const auto value = node.Find("sampler")) {
+    settings.sampler = value->Enum<SamplerKind>();
+    if (is_ompl && settings.ompl_algorithm->draws_near) {
+      value->Fail(fmt::format("is of samples from the whole space, and {} draws near others alone",
+                              settings.AlgorithmName()));
+    }
+  }
   for (const char* key : {"extension", "balance", "domain_radius", "experience", "recall"}) {
     const auto value = node.Find(key);
     if (value && is_ompl) value->Fail("is for RRT-Connect only, not for OMPL's planners");
@@ -100,9 +106,12 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
 std::map<std::string, std::string> DescribeSettings(const RrtcSettings& settings) {
   std::map<std::string, std::string> text = {
       {"algorithm", std::string(settings.AlgorithmName())},
-      {"sampler", std::string(EnumName(settings.sampler))},
       {"range", settings.range ? fmt::format("{}", *settings.range) : "default"}};
-  if (settings.ompl_algorithm != nullptr) {
+  const OmplAlgorithm* ompl_algorithm = settings.ompl_algorithm;
+  if (ompl_algorithm == nullptr || !ompl_algorithm->draws_near) {
+    text["sampler"] = EnumName(settings.sampler);
+  }
+  if (ompl_algorithm != nullptr) {
     text["metric"] = EnumName(settings.metric);
     if (const auto fraction = settings.longest_valid_segment_fraction) {
       text[kSegmentFraction] = fmt::format("{}", *fraction);

@@ -32,6 +32,7 @@ struct RrtcSettings {
 
   /// `algorithm`: kRrtConnect, or the name of a planner of OMPL; null: kRrtConnect.
   const OmplAlgorithm* ompl_algorithm = nullptr;
+  /// Of samples from the whole space.
   SamplerKind sampler = SamplerKind::kUniform;
   /// Longest motion added to a tree, in the metric, of every algorithm that has such a limit
   /// (others take it for nothing, so that a line-up may give it to all). None (`default`): the

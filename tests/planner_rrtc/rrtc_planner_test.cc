@@ -179,6 +179,14 @@ TEST_F(RrtcPlannerTest, RefusesWhatTheAlgorithmHasNoUseFor) {
     ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings("algorithm: RRT\n" + setting)); },
                      {"rrtc.yaml:2", setting.substr(0, setting.find(':')), "RRT-Connect only"});
   }
+  for (const std::string algorithm : {"EST", "KPIECE1", "SBL", "STRIDE"}) {
+    ExpectInputError(
+        [&] { MakeRrtcPlanner(robot_, Settings("algorithm: " + algorithm + "\nsampler: halton")); },
+        {"rrtc.yaml:2: sampler:", algorithm});
+    EXPECT_FALSE(MakeRrtcPlanner(robot_, Settings("algorithm: " + algorithm))
+                     ->Describe()
+                     .settings.contains("sampler"));
+  }
   ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings("recall: 2")); },
                    {"rrtc.yaml:1: recall", "'experience'"});
 
