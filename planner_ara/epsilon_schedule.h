@@ -18,7 +18,9 @@ struct EpsilonSchedule {
     if (bound <= final || epsilon <= final) return std::nullopt;
     const double below = std::min(epsilon, bound);
     const double steps = std::floor((initial - below) / decrement + 1e-9) + 1;
-    return std::max(final, initial - steps * decrement);
+    double next = initial - steps * decrement;
+    if (next >= below) next -= decrement;  // Of many steps the quotient is rounded by more.
+    return std::max(final, next);
   }
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
 #include <vector>
 
 namespace planbench {
@@ -28,6 +30,21 @@ TEST(EpsilonSchedule, SmallStepsAreNotLostToRounding) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     EXPECT_NEAR(values[i], 3 - 0.1 * static_cast<double>(i), 1e-12);
   }
+}
+
+TEST(EpsilonSchedule, NoStepIsTakenTwiceHoweverManyThereAre) {
+  for (const EpsilonSchedule& schedule :
+       {EpsilonSchedule{100, 1e-6, 1}, EpsilonSchedule{1e6, 1e-3, 1},
+        EpsilonSchedule{1e6, 1e-6, 1}}) {
+    for (double epsilon = schedule.initial; epsilon > 1; epsilon *= 0.999) {
+      const double step = std::round((schedule.initial - epsilon) / schedule.decrement);
+      const double value = schedule.initial - step * schedule.decrement;
+      const std::optional<double> next = schedule.Next(value, value);
+      if (!next) break;
+      EXPECT_LT(*next, value);
+    }
+  }
+  EXPECT_LT(EpsilonSchedule({100, 1e-6, 1}).Next(83.839999, 83.839999), 83.839999);
 }
 
 TEST(EpsilonSchedule, SkipsWhatTheBoundHasOvertaken) {
