@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-// Of their size, between the limits or round the circle.
+// Of their size, as far as positions may be beyond the limits, or round the circle.
 double CellsOf(const JointSpace::Joint& joint, double discretization) {
-  return (joint.continuous ? kTwoPi : joint.upper - joint.lower) / discretization;
+  const double range = joint.upper - joint.lower + 2 * JointSpace::kLimitTolerance;
+  return (joint.continuous ? kTwoPi : range) / discretization;
 }
 
 }  // namespace

@@ -131,6 +131,18 @@ TEST(Lattice, RefusesCellsOutOfProportion) {
       {"roll", "fewer than 3"});
 }
 
+TEST(Lattice, EveryCellOfTheTiniestHasACoordinate) {
+  const JointSpace space({{"slide", false, true, 0, 0.0065535, 1}});
+  // Positions may be beyond the limits by more than a cell of 1e-7.
+  EXPECT_NE(Lattice::WhyNoAxis(space.joint(0), 1e-7), "");
+  constexpr double kCell = 1.0001e-7 * (0.0065535 + 2e-6) / 0.0065535;
+  EXPECT_EQ(Lattice::WhyNoAxis(space.joint(0), kCell), "");
+  for (const double anchor : {-1e-6, 0.003, 0.0065535 + 1e-6}) {
+    const Lattice lattice(space, std::vector{anchor}, std::vector{kCell});
+    EXPECT_LE(lattice.num_cells(0), 65536);
+  }
+}
+
 TEST(LatticePoints, OnePointOneNumberWhateverTheRoute) {
   const Lattice lattice(LatticeSpace(), std::vector<double>{0.2, 0.5, 0.0},
                         std::vector<double>{0.005, 0.1, 0.1});
