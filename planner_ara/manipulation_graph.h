@@ -112,7 +112,10 @@ class ManipulationGraph {
   std::int64_t num_goal_connections_tried() const { return num_goal_connections_tried_; }
   /// Edges of recalled paths that were found to be free.
   std::int64_t num_recalled_edges() const { return num_recalled_edges_; }
-  std::size_t bytes() const { return points_.bytes() + known_edges_.bytes() + clearances_.bytes(); }
+  std::size_t bytes() const {
+    const std::size_t turns = turns_ ? turns_->bytes() : 0;
+    return points_.bytes() + known_edges_.bytes() + clearances_.bytes() + turns;
+  }
 
  private:
   /// From first_move_ on the number of a move; with kSpine, of the spine in its direction.

@@ -14,7 +14,8 @@ namespace planbench {
 /// Paths that were found before, as further edges of a lattice, the way experience graphs have them
 /// (Phillips, Cohen, Chitta and Likhachev, "E-Graphs: Bootstrapping planning with experience
 /// graphs", RSS 2012): waypoints, each moved to the nearest point of the lattice, are joined to
-/// those before and after them, every other point of the lattice to the waypoint nearest to it.
+/// those before and after them, every other point of the lattice to the waypoint nearest to it. A
+/// point that several waypoints have moved to is joined along the first path that has it there.
 class RecalledPaths {
  public:
   static constexpr int kNone = -1;

@@ -284,8 +284,10 @@ TEST_F(ManipulationGraphTest, EagerEvaluationOffersTheValidEdgesOfALazyGraph) {
 
 TEST_F(ManipulationGraphTest, AHeuristicThatDoesNotWrapRemembersTheTurns) {
   ManipulationGraphOptions options = Options(2 * M_PI / 20);
+  const std::size_t bytes_without = Graph(PointGoal(kRight), options).bytes();
   options.wrap_heuristic = false;
   ManipulationGraph graph = Graph(PointGoal(kRight), options);
+  EXPECT_GT(graph.bytes(), bytes_without) << "what the turns take counts";
   const StateId start = ManipulationGraph::kStart;
   EXPECT_NEAR(graph.Heuristic(start), 1.2, 1e-9);
   // The first joint alone, upwards past half a turn: the way back grows and grows, up to the cell
