@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <random>
+#include <set>
 #include <utility>
 
 #include "common/error.h"
@@ -188,11 +190,11 @@ bool ManipulationGraph::Refine() {
     halves.push_back(std::move(row));
   }
   if (halves.empty()) return false;
-  std::vector<std::vector<int>> added = halves;
-  std::erase_if(added, [this](const std::vector<int>& row) {
-    return std::any_of(moves_.begin(), moves_.end(),
-                       [&](const Move& move) { return move.cells == row; });
-  });
+  std::set<std::vector<int>> known;
+  for (const Move& move : moves_) known.insert(move.cells);
+  std::vector<std::vector<int>> added;
+  std::ranges::copy_if(halves, std::back_inserter(added),
+                       [&](const std::vector<int>& row) { return known.insert(row).second; });
   if (!AddMoves(added, false)) return false;
   finest_moves_ = std::move(halves);
   MakeRoomForKnowledge();

@@ -161,6 +161,15 @@ TEST_F(ManipulationGraphTest, RefinesItsMovesDownToSingleCells) {
   EXPECT_FALSE(Graph(PointGoal(kRight), options).Refine());
 }
 
+TEST_F(ManipulationGraphTest, RefinesMovesOfTheSameHalfOnce) {
+  ManipulationGraphOptions options = Options(0.05);
+  options.primitives = {{{4, 0, 0}, {5, 0, 0}}, {}};
+  ManipulationGraph graph = Graph(PointGoal(kRight), options);
+  const std::size_t num_edges = EdgesOf(&graph, ManipulationGraph::kStart).size();
+  ASSERT_TRUE(graph.Refine());
+  EXPECT_EQ(EdgesOf(&graph, ManipulationGraph::kStart).size(), num_edges + 2);
+}
+
 TEST_F(ManipulationGraphTest, RandomMovesGoSomewhatBeyondTheLargestBothWays) {
   ManipulationGraphOptions options = Options(0.02);
   options.primitives = {{{4, 0, 0}, {0, 8, 0}, {0, 0, 6}}, {}};
