@@ -70,7 +70,7 @@ std::optional<ReceivedMessage> PacketReader::ReadSmall(const PacketSender& sende
   std::span<const std::uint8_t> rest = packet.subspan(kSmallHeader);
   std::optional<std::string> channel = TakeChannel(&rest);
   if (!channel) return Malformed();
-  Hear(sender, Number(packet, 4, 4));
+  ++Hear(sender, Number(packet, 4, 4)).counters.received;
   return ReceivedMessage{*std::move(channel), {rest.begin(), rest.end()}};
 }
 
@@ -129,14 +129,27 @@ std::optional<ReceivedMessage> PacketReader::Complete(Known* known) {
     message.bytes.insert(message.bytes.end(), fragment.bytes.begin(), fragment.bytes.end());
   }
   if (message.bytes.size() != pending.size) return Malformed();
+  ++known->counters.received;
   return message;
 }
 
+void PacketReader::CountLost(Known* known, std::int64_t number) {
+  counters_.lost += number;
+  known->counters.lost += number;
+}
+
+std::map<PacketSender, PacketReader::SenderCounters> PacketReader::Senders() const {
+  std::map<PacketSender, SenderCounters> senders;
+  for (const auto& [sender, known] : senders_) senders[sender] = known.counters;
+  return senders;
+}
+
 void PacketReader::GiveUp(std::list<Pending>::iterator pending) {
-  ++counters_.lost;
+  Known& known = senders_.at(pending->sender);
+  CountLost(&known, 1);
   ++counters_.incomplete;
   pending_bytes_ -= pending->footprint;
-  senders_.at(pending->sender).pending = pending_.end();
+  known.pending = pending_.end();
   pending_.erase(pending);
 }
 
@@ -144,7 +157,7 @@ PacketReader::Known& PacketReader::Hear(const PacketSender& sender, std::uint32_
   const auto [place, is_new] = senders_.try_emplace(sender);
   Known& known = place->second;
   if (is_new) {
-    known = {sequence, false, heard_.insert(heard_.end(), sender), pending_.end()};
+    known = {sequence, false, {}, heard_.insert(heard_.end(), sender), pending_.end()};
     if (senders_.size() > kMaxSenders) {
       const auto oldest = senders_.find(heard_.front());
       if (oldest->second.pending != pending_.end()) GiveUp(oldest->second.pending);
@@ -158,7 +171,7 @@ PacketReader::Known& PacketReader::Hear(const PacketSender& sender, std::uint32_
   // A little earlier: the packet was repeated or overtaken. Much earlier: another process has got
   // the port.
   if (step > 0 || step < -kMostOvertaken) {
-    if (step > 0) counters_.lost += step - 1;
+    if (step > 0) CountLost(&known, step - 1);
     if (step < 0 && known.pending != pending_.end()) GiveUp(known.pending);
     known.newest = sequence;
     known.begun = false;

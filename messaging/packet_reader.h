@@ -60,6 +60,12 @@ class PacketReader {
     std::int64_t incomplete = 0;
   };
 
+  /// What is known of the messages of one sender since it was first heard.
+  struct SenderCounters {
+    std::int64_t received = 0;
+    std::int64_t lost = 0;  ///< As in Counters.
+  };
+
   explicit PacketReader(std::size_t max_pending_bytes = kMaxPendingBytes)
       : max_pending_bytes_(max_pending_bytes) {}
 
@@ -68,6 +74,8 @@ class PacketReader {
                                       std::span<const std::uint8_t> packet, std::int64_t utime);
 
   const Counters& counters() const { return counters_; }
+  /// Of the senders that are remembered.
+  std::map<PacketSender, SenderCounters> Senders() const;
 
  private:
   /// A message of which some fragments have come.
@@ -87,6 +95,7 @@ class PacketReader {
   struct Known {
     std::uint32_t newest = 0;  ///< Sequence number.
     bool begun = false;        ///< Fragments of the newest have come: it is pending or done with.
+    SenderCounters counters;
     std::list<PacketSender>::iterator heard;
     std::list<Pending>::iterator pending;  ///< pending_.end() if none.
   };
@@ -96,6 +105,7 @@ class PacketReader {
   std::optional<ReceivedMessage> ReadFragment(const PacketSender& sender,
                                               std::span<const std::uint8_t> packet);
   std::nullopt_t Malformed();
+  void CountLost(Known* known, std::int64_t number);
   /// Notes a sequence number; what was missed since the last one is lost.
   Known& Hear(const PacketSender& sender, std::uint32_t sequence);
   void GiveUp(std::list<Pending>::iterator pending);

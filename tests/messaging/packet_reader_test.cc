@@ -191,6 +191,21 @@ TEST(PacketReader, CountsMessagesThatDidNotCome) {
   EXPECT_EQ(reader.counters().incomplete, 1);
 }
 
+TEST(PacketReader, CountsForEverySender) {
+  PacketReader reader;
+  const PacketSender bob = {kAlice.address, static_cast<std::uint16_t>(kAlice.port + 1)};
+  for (const std::uint32_t sequence : {7, 8, 10}) reader.Read(kAlice, Small(sequence, "A", ""), 0);
+  ReadAll(&reader, Cut(11, "A", "aaaa", 2));
+  reader.Read(bob, Cut(1, "B", "bbbb", 2)[0], 0);
+  reader.Read(bob, Cut(3, "B", "bbbb", 2)[0], 0);
+  const auto senders = reader.Senders();
+  ASSERT_EQ(senders.size(), 2u);
+  EXPECT_EQ(senders.at(kAlice).received, 4);
+  EXPECT_EQ(senders.at(kAlice).lost, 1);
+  EXPECT_EQ(senders.at(bob).received, 0);
+  EXPECT_EQ(senders.at(bob).lost, 2);
+}
+
 TEST(PacketReader, TakesFragmentsOfANewProcessOnAnOldPort) {
   PacketReader reader;
   EXPECT_TRUE(reader.Read(kAlice, Small(5000, "A", ""), 0));
