@@ -16,6 +16,7 @@
 #include "common/error.h"
 #include "common/utime.h"
 #include "messaging/multicast_receiver.h"
+#include "messaging/network_interfaces.h"
 #include "messaging/packet_reader.h"
 
 namespace planbench {
@@ -80,17 +81,42 @@ std::string FirstLine(const std::string& text) {
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-lcm_t* ConnectSender(const std::string& url) {
+lcm_t* ConnectSender(const std::string& url, int ttl) {
   StderrCapture capture;
   lcm_t* lcm = lcm_create(url.c_str());
   const std::string said = capture.Restore();
   if (lcm != nullptr) return lcm;
   if (said.find("multicast route") != std::string::npos) {
-    throw InputError("LCM needs a multicast route and this machine has none for " + url +
-                     "; as root: ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo");
+    throw InputError("LCM needs a multicast route and this machine has none for " + url + "; " +
+                     MulticastRouteAdvice(ttl));
   }
   throw InputError("cannot connect to LCM at '" + url + "': " + FirstLine(said));
 }
+
+/// Tells of machines that are heard and cannot hear this process: its own messages stay here.
+class OneWayReach {
+ public:
+  OneWayReach(std::string url, int ttl) : url_(std::move(url)), is_possible_(ttl == 0) {}
+
+  void Notice(const PacketSender& from) {
+    if (!is_possible_ || from.address == known_) return;
+    if (IsOfThisMachine(from.address)) {
+      known_ = from.address;
+      return;
+    }
+    is_possible_ = false;  // to be told again
+    spdlog::warn(
+        "{} is on another machine and does not hear this process, whose messages stay on this one "
+        "({} has ttl=0{}): put ttl=1 into its --lcm-url if both are of one session, else take "
+        "another port",
+        from.Text(), url_, url_.find("ttl=") == std::string::npos ? " by default" : "");
+  }
+
+ private:
+  std::string url_;
+  bool is_possible_;
+  std::uint32_t known_ = 0;  ///< An address of this machine.
+};
 
 }  // namespace
 
@@ -132,7 +158,8 @@ struct Bus::Impl {
   void Connect(const std::string& url) {
     const MulticastAddress address = MulticastAddress::Parse(url);
     // LCM looks for a multicast route. It receives nothing, since nothing subscribes with it.
-    sender = ConnectSender(url);
+    sender = ConnectSender(url, address.ttl);
+    reach.emplace(url, address.ttl);
     const SignalsBlocked blocked;
     receiver.emplace(address,
                      [this](const PacketSender& from, std::span<const std::uint8_t> packet) {
@@ -147,6 +174,7 @@ struct Bus::Impl {
   }
 
   void OnPacket(const PacketSender& from, std::span<const std::uint8_t> packet) {
+    reach->Notice(from);
     std::optional<ReceivedMessage> message;
     {
       const std::scoped_lock lock(packets_mutex);
@@ -168,6 +196,7 @@ struct Bus::Impl {
   std::mutex hearing;  ///< What the receiver hears is what the inbox has subscribers for, or more.
   mutable std::mutex packets_mutex;
   PacketReader packets;
+  std::optional<OneWayReach> reach;  ///< None without a network; the receiving thread's.
   std::optional<MulticastReceiver> receiver;
   std::atomic<bool> started = false;
   std::atomic<bool> stopping = false;
@@ -224,6 +253,11 @@ Bus::Counters Bus::counters() const {
   const std::scoped_lock lock(impl_->packets_mutex);
   const PacketReader::Counters& packets = impl_->packets.counters();
   return {packets.malformed, packets.lost, dropped, packets.incomplete};
+}
+
+std::map<PacketSender, PacketReader::SenderCounters> Bus::senders() const {
+  const std::scoped_lock lock(impl_->packets_mutex);
+  return impl_->packets.Senders();
 }
 
 }  // namespace planbench

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -121,6 +122,8 @@ class Bus {
     std::int64_t incomplete = 0;  ///< Large messages sent of which only parts came.
   };
   Counters counters() const;
+  /// Of a bus with a subscription to all channels: who was heard, this process included.
+  std::map<PacketSender, PacketReader::SenderCounters> senders() const;
   /// Messages that claimed to be from another sender than theirs, as those who took or refused them
   /// noted.
   Contradictions& contradictions() { return contradictions_; }
