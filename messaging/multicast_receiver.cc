@@ -13,6 +13,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -31,6 +32,10 @@ namespace {
 /// Packets taken from the kernel at once, and the most bytes that one can have.
 constexpr std::size_t kBatch = 16;
 constexpr std::size_t kMaxPacketBytes = 65536;
+
+/// After which it is seen to that the group is joined. A process that announces itself hears itself
+/// twice as often, so that where the bus works this costs nothing.
+constexpr std::chrono::milliseconds kSilence{1000};
 
 /// What a socket's options take.
 constexpr int kMostBufferBytes = std::numeric_limits<int>::max();
@@ -71,23 +76,35 @@ void SetReceiveBuffer(int socket_fd, int bytes) {
       granted / 2, bytes, bytes);
 }
 
-void Join(int socket_fd, const MulticastAddress& address) {
+in_addr Group(const MulticastAddress& address) {
+  in_addr group = {};
+  inet_pton(AF_INET, address.group.c_str(), &group);
+  return group;
+}
+
+void Bind(int socket_fd, const MulticastAddress& address) {
   const int yes = 1;
   Set(socket_fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes), "address in use");
-  ip_mreq membership = {};
   sockaddr_in bound = {};
   bound.sin_family = AF_INET;
   bound.sin_port = htons(address.port);
-  inet_pton(AF_INET, address.group.c_str(), &bound.sin_addr);
+  bound.sin_addr = Group(address);
   if (bind(socket_fd, reinterpret_cast<const sockaddr*>(&bound), sizeof(bound)) != 0) {
     throw InputError(fmt::format("cannot receive from {}:{}: {}", address.group, address.port,
                                  std::strerror(errno)));
   }
-  membership.imr_multiaddr = bound.sin_addr;
-  membership.imr_interface.s_addr = htonl(INADDR_ANY);
-  Set(socket_fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof(membership),
-      ("cannot join " + address.group).c_str());
 }
+
+/// On the interface by which the route goes now. Fails with EADDRINUSE if that is done. What one
+/// socket has joined all get that are bound to the group (IP_MULTICAST_ALL, ip(7)).
+bool Join(int socket_fd, const MulticastAddress& address) {
+  ip_mreq membership = {};
+  membership.imr_multiaddr = Group(address);
+  membership.imr_interface.s_addr = htonl(INADDR_ANY);
+  return setsockopt(socket_fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof(membership)) == 0;
+}
+
+int MakeSocket() { return socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
 
 }  // namespace
 
@@ -123,16 +140,21 @@ MulticastAddress MulticastAddress::Parse(const std::string& url) {
 }
 
 MulticastReceiver::MulticastReceiver(const MulticastAddress& address, Handler handler)
-    : handler_(std::move(handler)) {
-  socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    : address_(address), handler_(std::move(handler)) {
+  socket_ = MakeSocket();
+  member_ = MakeSocket();
   stop_ = eventfd(0, EFD_CLOEXEC);
   try {
-    if (socket_ < 0 || stop_ < 0) throw InputError(std::strerror(errno));
+    if (socket_ < 0 || member_ < 0 || stop_ < 0) throw InputError(std::strerror(errno));
     SetReceiveBuffer(socket_, address.receive_buffer_bytes);
-    Join(socket_, address);
+    Bind(socket_, address);
+    if (!Join(member_, address)) {
+      throw InputError(fmt::format("cannot join {}: {}", address.group, std::strerror(errno)));
+    }
     thread_ = std::thread([this] { Receive(); });
   } catch (...) {
     close(socket_);
+    close(member_);
     close(stop_);
     throw;
   }
@@ -142,6 +164,7 @@ MulticastReceiver::~MulticastReceiver() {
   eventfd_write(stop_, 1);
   thread_.join();
   close(socket_);
+  close(member_);
   close(stop_);
 }
 
@@ -158,6 +181,24 @@ void MulticastReceiver::Hear(const std::optional<std::set<std::string>>& channel
   setsockopt(socket_, SOL_SOCKET, SO_DETACH_FILTER, &unused, sizeof(unused));
 }
 
+void MulticastReceiver::JoinAgain() {
+  bool joined = Join(member_, address_);
+  if (!joined && errno == EADDRINUSE) return;
+  if (!joined) {
+    // There is no route now, or it has been away too often. What the socket had joined is gone with
+    // its interface, and would else count as joined should another get that one's number.
+    close(member_);
+    member_ = MakeSocket();
+    joined = Join(member_, address_);
+  }
+  if (joined) {
+    spdlog::warn(
+        "{} was joined again: the network interface that the bus goes by is another, or "
+        "was away",
+        address_.group);
+  }
+}
+
 void MulticastReceiver::Receive() {
   std::vector<std::uint8_t> memory(kBatch * kMaxPacketBytes);
   std::array<sockaddr_in, kBatch> senders = {};
@@ -165,10 +206,12 @@ void MulticastReceiver::Receive() {
   std::array<mmsghdr, kBatch> packets = {};
   std::array<pollfd, 2> awaited = {pollfd{socket_, POLLIN, 0}, pollfd{stop_, POLLIN, 0}};
   while (true) {
-    if (poll(awaited.data(), awaited.size(), -1) < 0 && errno != EINTR) {
+    const int num_ready = poll(awaited.data(), awaited.size(), static_cast<int>(kSilence.count()));
+    if (num_ready < 0 && errno != EINTR) {
       spdlog::critical("the bus cannot be heard any more: {}", std::strerror(errno));
       return;
     }
+    if (num_ready == 0) JoinAgain();
     if (awaited[1].revents != 0) return;
     for (std::size_t i = 0; i < kBatch; ++i) {
       buffers[i] = {memory.data() + i * kMaxPacketBytes, kMaxPacketBytes};

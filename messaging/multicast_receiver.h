@@ -29,7 +29,8 @@ struct MulticastAddress {
 
 /// Receives the packets of a multicast group on a thread of its own, from construction on. Packets
 /// for other groups or for this host alone, which a socket bound to the port would get too, are
-/// not seen.
+/// not seen. When nothing has come for a while it joins the group again if it must: an interface
+/// that was taken away and came back (USB, VPN) knows of no member.
 class MulticastReceiver {
  public:
   using Handler =
@@ -48,10 +49,13 @@ class MulticastReceiver {
 
  private:
   void Receive();
+  void JoinAgain();
 
+  MulticastAddress address_;
   Handler handler_;
   int socket_ = -1;
-  int stop_ = -1;  ///< An eventfd.
+  int member_ = -1;  ///< A socket that is in the group, for this machine's sake: see Join.
+  int stop_ = -1;    ///< An eventfd.
   std::thread thread_;
 };
 

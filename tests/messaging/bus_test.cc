@@ -1,15 +1,14 @@
 #include "messaging/bus.h"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sched.h>
 #include <signal.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -32,6 +31,7 @@
 #include "tests/messaging/stranger.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/message_collector.h"
+#include "tests/support/own_network.h"
 #include "tests/support/private_bus.h"
 
 namespace planbench {
@@ -142,42 +142,48 @@ TEST(BusTest, BadUrlIsAnInputErrorOfOneLine) {
             2147483647);
 }
 
-/// What `Bus` throws in a network without routes; nothing if this process may not make one.
-std::optional<std::string> ErrorWithoutRoutes() {
-  int channel[2];
-  if (pipe(channel) != 0) throw std::runtime_error("pipe failed");
-  const pid_t pid = fork();
-  if (pid < 0) throw std::runtime_error("fork failed");
-  if (pid == 0) {
-    if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) _exit(77);
-    std::string said = "nothing was thrown";
-    try {
-      Bus bus("udpm://239.255.76.67:7667?ttl=0");
-    } catch (const InputError& error) {
-      said = error.what();
-    }
-    _exit(write(channel[1], said.data(), said.size()) == static_cast<ssize_t>(said.size()) ? 0 : 1);
+TEST(BusTest, WithoutMulticastRouteSaysHowToMendIt) {
+  for (const int ttl : {0, 1}) {
+    const std::optional<std::string> said = InOwnNetwork([&] {
+      try {
+        Bus bus("udpm://239.255.76.67:7667?ttl=" + std::to_string(ttl));
+      } catch (const InputError& error) {
+        return std::string(error.what());
+      }
+      return std::string("nothing was thrown");
+    });
+    if (!said) GTEST_SKIP() << "this process may not make a network of its own";
+    EXPECT_THAT(*said, HasSubstr("multicast route"));
+    EXPECT_THAT(*said, HasSubstr(ttl == 0 ? "ip route add 224.0.0.0/4 dev lo"
+                                          : "ip route replace 224.0.0.0/4 dev INTERFACE"));
+    EXPECT_EQ(said->find('\n'), std::string::npos) << *said;
   }
-  close(channel[1]);
-  std::string said;
-  char buffer[4096];
-  for (ssize_t n = 0; (n = read(channel[0], buffer, sizeof(buffer))) > 0;) {
-    said.append(buffer, static_cast<std::size_t>(n));
-  }
-  close(channel[0]);
-  int status = 0;
-  waitpid(pid, &status, 0);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) return std::nullopt;
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  return said;
 }
 
-TEST(BusTest, WithoutMulticastRouteSaysHowToMendIt) {
-  const std::optional<std::string> said = ErrorWithoutRoutes();
-  if (!said) GTEST_SKIP() << "this process may not make a network of its own";
-  EXPECT_THAT(*said, HasSubstr("multicast route"));
-  EXPECT_THAT(*said, HasSubstr("ip link set lo up multicast on; ip route add"));
-  EXPECT_EQ(said->find('\n'), std::string::npos) << *said;
+TEST(BusTest, IsHeardAgainWhenItsInterfaceWasAway) {
+  const std::string make = fmt::format("{} && {}", kMakeWire, kRouteByWire);
+  const std::optional<std::string> said = InOwnNetwork([&]() -> std::string {
+    if (!RunsInShell(make)) return "no wire";
+    Bus bus("udpm://239.255.76.67:7667?ttl=1");
+    MessageCollector<DiscoverMessage> collector(&bus, "CHANNEL");
+    bus.Start();
+    const auto is_heard = [&] {
+      const std::size_t before = collector.messages().size();
+      return WaitUntil([&] {
+        PublishNumber(&bus, "CHANNEL", 1);
+        return collector.messages().size() > before;
+      });
+    };
+    if (!is_heard()) return "not heard";
+    // Once noticed while it is away, once not.
+    for (const char* pause : {"sleep 0", "sleep 1.5"}) {
+      if (!RunsInShell(fmt::format("ip link del wire && {} && {}", pause, make))) return "no wire";
+      if (!is_heard()) return fmt::format("deaf after {}", pause);
+    }
+    return "heard";
+  });
+  if (!said || *said == "no wire") GTEST_SKIP() << "needs a network of its own";
+  EXPECT_EQ(*said, "heard");
 }
 
 TEST(BusTest, LargeMessageArrivesWhole) {
