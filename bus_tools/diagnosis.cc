@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -18,11 +20,14 @@
 #include "bus_tools/traffic.h"
 #include "common/error.h"
 #include "common/text.h"
+#include "common/utf8.h"
 #include "common/version.h"
 #include "messaging/any_message.h"
 #include "messaging/bus.h"
 #include "messaging/channels.h"
+#include "messaging/lcm_url.h"
 #include "messaging/multicast_receiver.h"
+#include "messaging/network_interfaces.h"
 
 namespace planbench {
 namespace {
@@ -32,20 +37,32 @@ using Kind = Finding::Kind;
 
 constexpr std::size_t kSmallBytes = 1000;
 constexpr std::size_t kLargeBytes = 1'000'000;
+/// What goes over any network in one piece.
+constexpr std::size_t kOnePacketBytes = 1400;
+
+/// How often everybody is asked to announce himself while the doctor listens, as a driver does that
+/// waits for others: so there is something to lose.
+constexpr std::chrono::milliseconds kAskPeriod{200};
 
 /// All that is heard while it lives.
 class Listener {
  public:
-  Listener(Bus* bus, std::string own_channel)
-      : own_channel_(std::move(own_channel)),
+  /// `own_name`: by which this process asks others to announce themselves.
+  Listener(Bus* bus, std::string own_name)
+      : own_name_(std::move(own_name)),
         subscription_(
             bus->SubscribeToAll([this](const ReceivedMessage& m) { Take(m); }, kQueueCapacity)) {}
 
-  int num_own() const { return num_own_; }
-
+  struct Sender {
+    std::string name;  ///< As announced; empty: not.
+    std::size_t largest_bytes = 0;
+  };
   struct Heard {
-    std::map<std::string, NodeStatusMessage> nodes;  ///< By name, host and pid.
-    std::map<std::string, int> foreign;              ///< Channel to messages of unknown types.
+    /// By name, pid, host and address: hosts may have the same name, and containers the same pids.
+    std::map<std::string, NodeStatusMessage> nodes;
+    std::map<std::string, int> foreign;  ///< Channel to messages of unknown types.
+    std::map<PacketSender, Sender> senders;
+    std::optional<PacketSender> self;
   };
   Heard heard() const {
     const std::scoped_lock lock(mutex_);
@@ -54,23 +71,26 @@ class Listener {
 
  private:
   void Take(const ReceivedMessage& message) {
-    if (message.channel == own_channel_) {
-      ++num_own_;
-      return;
-    }
     const std::scoped_lock lock(mutex_);
+    Sender& sender = heard_.senders[message.sender];
+    sender.largest_bytes = std::max(sender.largest_bytes, message.bytes.size());
     try {
       if (!PrintAny(message.bytes, message.channel)) ++heard_.foreign[message.channel];
+      if (message.channel == channel::kDiscover &&
+          Decode<DiscoverMessage>(message.bytes, message.channel).sender == own_name_) {
+        heard_.self = message.sender;
+      }
       if (message.channel != channel::kNodeStatus) return;
       const auto status = Decode<NodeStatusMessage>(message.bytes, message.channel);
-      heard_.nodes[fmt::format("{}, pid {} on {}", status.name, status.pid, status.host)] = status;
+      sender.name = status.name;
+      heard_.nodes[fmt::format("{}, pid {} on {}, {}", status.name, status.pid, status.host,
+                               message.sender.Text())] = status;
     } catch (const MessageError&) {
       ++heard_.foreign[message.channel];
     }
   }
 
-  std::string own_channel_;
-  std::atomic<int> num_own_ = 0;
+  std::string own_name_;
   mutable std::mutex mutex_;
   Heard heard_;
   Subscription subscription_;
@@ -104,37 +124,130 @@ Finding BufferFinding(const MulticastAddress& address, const std::string& url) {
 
 Finding ReachFinding(const MulticastAddress& address) {
   if (address.ttl == 0) return {Kind::kGood, "reach: ttl=0, messages stay on this machine", ""};
-  return {Kind::kNote, "reach: messages leave this machine, and others' are heard",
-          "put ttl=0 into the URL, unless processes run on several machines"};
+  const auto interface = InterfaceOfRoute(address.group);
+  if (interface && interface->is_loopback) {
+    return {Kind::kFault,
+            fmt::format("reach: ttl={}, but the multicast route goes by '{}': messages stay on "
+                        "this machine, and no other's are heard",
+                        address.ttl, interface->name),
+            MulticastRouteAdvice(address.ttl)};
+  }
+  const std::string way =
+      interface ? fmt::format(" by '{}' (MTU {} bytes)", interface->name, interface->mtu_bytes)
+                : "";
+  return {Kind::kNote,
+          fmt::format("reach: messages leave this machine{}, and others' are heard", way),
+          "put ttl=0 into the URL, unless processes run on several machines: on all of them it has "
+          "to be the session's network, and the same MTU"};
 }
 
-Finding LossFinding(const Bus& bus, const std::string& what, int sent, int received) {
-  if (received >= sent) {
-    return {Kind::kGood, fmt::format("loss: {} of {} {} arrived", received, sent, what), ""};
+/// What the senders' sequence numbers tell of the way from them to here, and what they do not.
+std::vector<Finding> WayFindings(const Bus& bus, const MulticastAddress& address,
+                                 const Listener::Heard& heard) {
+  std::vector<Finding> findings;
+  if (!heard.self) {
+    findings.push_back({Kind::kFault, "way: what this process sends does not come back to it",
+                        fmt::format("see that no firewall drops what is sent to {}:{}",
+                                    address.group, address.port)});
   }
-  const Bus::Counters counters = bus.counters();
-  return {Kind::kFault,
-          fmt::format("loss: {} of {} {} arrived ({} lost, {} came faster than they were read)",
-                      received, sent, what, counters.lost, counters.dropped),
-          "raise the receive buffer (above), or look for what keeps the machine busy"};
+  std::int64_t num_received = 0;
+  std::int64_t num_lost = 0;
+  std::size_t largest_bytes = 0;
+  int num_far = 0;
+  int num_senders = 0;
+  for (const auto& [sender, counters] : bus.senders()) {
+    if (heard.self == sender) continue;
+    const auto known = heard.senders.find(sender);
+    const Listener::Sender said = known == heard.senders.end() ? Listener::Sender{} : known->second;
+    const std::string who = said.name.empty()
+                                ? sender.Text()
+                                : fmt::format("{} ({})", Printable(said.name), sender.Text());
+    const bool is_far = !IsOfThisMachine(sender.address);
+    if (is_far && address.ttl == 0) {
+      findings.push_back({Kind::kFault,
+                          fmt::format("reach: {} is on another machine, which does not hear this "
+                                      "one: ttl=0",
+                                      who),
+                          "put ttl=1 into the URL, or take another port"});
+    }
+    if (counters.lost > 0) {
+      findings.push_back(
+          {Kind::kFault,
+           fmt::format("way: {} of {} messages from {} did not come", counters.lost,
+                       counters.received + counters.lost, who),
+           is_far ? "look for what loses packets on the way from that machine: Wi-Fi, a full link, "
+                    "MTUs that differ (each machine's doctor tells its own)"
+                  : "raise the receive buffer (above), or look for what keeps the machine busy"});
+    }
+    num_received += counters.received;
+    num_lost += counters.lost;
+    ++num_senders;
+    if (!is_far) continue;
+    ++num_far;
+    largest_bytes = std::max(largest_bytes, said.largest_bytes);
+  }
+  if (num_senders > 0 && num_lost == 0) {
+    findings.push_back({Kind::kGood,
+                        fmt::format("way: none of {} messages from {} other processes was lost, {} "
+                                    "of them on other machines",
+                                    num_received, num_senders, num_far),
+                        ""});
+  }
+  if (address.ttl == 0) return findings;
+  if (num_far == 0) {
+    findings.push_back(
+        {Kind::kNote, "way: nobody on another machine was heard: nothing is known of the network",
+         "if a process is live there, its doctor is to say the same ttl and the session's network "
+         "(reach); a firewall may be in the way, or a switch that snoops IGMP and has no querier"});
+  } else if (largest_bytes <= kOnePacketBytes) {
+    findings.push_back({Kind::kNote,
+                        fmt::format("way: from other machines came nothing larger than {} bytes: "
+                                    "nothing is known of larger messages, as scenes are",
+                                    largest_bytes),
+                        "look once more while a session begins"});
+  }
+  return findings;
 }
 
-void MeasureLoss(Bus* bus, const Listener& listener, const std::string& channel, std::size_t bytes,
-                 int num, const std::string& what, std::vector<Finding>* findings) {
-  const std::vector<std::uint8_t> payload(bytes, 0);
-  const int before = listener.num_own();
-  // As fast as a busy session is: some 20 MB/s.
-  const auto pause = std::chrono::microseconds(bytes / 20);
-  for (int i = 0; i < num; ++i) {
-    bus->PublishBytes(channel, payload);
-    std::this_thread::sleep_for(pause);
+/// How many of its own messages a process of this machine gets: that tells of receive buffers and
+/// of the processor, and of no network. On a port of its own, so that no session has to do with it.
+class LoopBack {
+ public:
+  explicit LoopBack(const MulticastAddress& address)
+      : bus_(fmt::format("udpm://{}:{}?ttl=0&recv_buf_size={}", address.group, FreeUdpPort(),
+                         address.receive_buffer_bytes)) {
+    bus_.Start();
   }
-  const auto deadline = Clock::now() + std::chrono::seconds(1);
-  while (listener.num_own() - before < num && Clock::now() < deadline) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+
+  Finding Measure(std::size_t bytes, int num, const std::string& what) {
+    const std::vector<std::uint8_t> payload(bytes, 0);
+    num_received_ = 0;
+    // As fast as a busy session is: some 20 MB/s.
+    const auto pause = std::chrono::microseconds(bytes / 20);
+    for (int i = 0; i < num; ++i) {
+      bus_.PublishBytes("BUS_DOCTOR", payload);
+      std::this_thread::sleep_for(pause);
+    }
+    const auto deadline = Clock::now() + std::chrono::seconds(1);
+    while (num_received_ < num && Clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    const std::string text = fmt::format("loss within this machine: {} of {} {} arrived",
+                                         num_received_.load(), num, what);
+    if (num_received_ >= num) return {Kind::kGood, text, ""};
+    const Bus::Counters counters = bus_.counters();
+    return {Kind::kFault,
+            fmt::format("{} ({} lost, {} came faster than they were read)", text, counters.lost,
+                        counters.dropped),
+            "raise the receive buffer (above), or look for what keeps the machine busy"};
   }
-  findings->push_back(LossFinding(*bus, what, num, listener.num_own() - before));
-}
+
+ private:
+  std::atomic<int> num_received_ = 0;
+  Bus bus_;
+  Subscription subscription_ =
+      bus_.SubscribeToAll([this](const ReceivedMessage&) { ++num_received_; }, kQueueCapacity);
+};
 
 /// Planners tell a version of their own, unless they are planbench's.
 std::vector<Finding> VersionFindings(const std::map<std::string, NodeStatusMessage>& nodes) {
@@ -171,7 +284,9 @@ std::vector<Finding> NameFindings(const std::map<std::string, NodeStatusMessage>
   std::map<std::string, int> processes;                   // by name
   std::map<std::string, std::set<std::string>> planners;  // by their channel
   for (const auto& [who, status] : nodes) {
-    if (status.kind != NodeKind::kLogger) ++processes[status.name];
+    const bool may_be_several = status.kind == NodeKind::kLogger;
+    const bool is_told_below = status.kind == NodeKind::kDriver;
+    if (!may_be_several && !is_told_below) ++processes[status.name];
     if (status.kind != NodeKind::kPlanner) continue;
     planners[PlannerChannels(status.name).request].insert("'" + status.name + "'");
   }
@@ -192,14 +307,36 @@ std::vector<Finding> NameFindings(const std::map<std::string, NodeStatusMessage>
   return findings;
 }
 
+/// Robots that are not one and the same, though a session has one.
+std::vector<Finding> RobotFindings(const std::map<std::string, NodeStatusMessage>& nodes) {
+  std::map<std::string, std::set<std::string>> holders;  // by robot
+  for (const auto& [who, status] : nodes) {
+    if (status.robot_id.empty()) continue;
+    holders[fmt::format("{} [{}]", Printable(status.robot_name),
+                        Printable(FirstCharacters(status.robot_id, 8)))]
+        .insert(fmt::format("{} on {}", Printable(status.name), Printable(status.host)));
+  }
+  if (holders.size() < 2) return {};
+  std::vector<std::string> robots;
+  for (const auto& [robot, names] : holders) {
+    robots.push_back(fmt::format("{} of {}", robot, fmt::join(names, ", ")));
+  }
+  return {
+      {Kind::kFault,
+       fmt::format("robots: {} on one bus: {}", robots.size(), fmt::join(robots, "; ")),
+       "start all with one --robot; where folders of one name differ in what they hold, copy one"}};
+}
+
 std::vector<Finding> NeighbourFindings(const Listener::Heard& heard) {
   std::vector<Finding> findings;
   std::vector<std::string> lines;
   int num_servers = 0;
+  int num_drivers = 0;
   for (const auto& [who, status] : heard.nodes) {
     lines.push_back(fmt::format("  {} ({}), version {}", Printable(who), EnumName(status.kind),
                                 Printable(status.version)));
     num_servers += status.kind == NodeKind::kSceneServer ? 1 : 0;
+    num_drivers += status.kind == NodeKind::kDriver ? 1 : 0;
   }
   if (lines.empty()) {
     findings.push_back({Kind::kGood, "port: nobody of planbench is on it", ""});
@@ -215,6 +352,12 @@ std::vector<Finding> NeighbourFindings(const Listener::Heard& heard) {
     findings.push_back({Kind::kFault, fmt::format("scene servers: {} on one bus", num_servers),
                         "stop all but one: every session needs a port of its own"});
   }
+  if (num_drivers > 1) {
+    findings.push_back({Kind::kFault, fmt::format("drivers: {} on one bus", num_drivers),
+                        "interrupt all but one (Ctrl-C): each session needs a port of its own "
+                        "(--lcm-url), on which --resume goes on with it"});
+  }
+  for (Finding& finding : RobotFindings(heard.nodes)) findings.push_back(std::move(finding));
   for (Finding& finding : VersionFindings(heard.nodes)) findings.push_back(std::move(finding));
   for (const auto& [channel, count] : heard.foreign) {
     findings.push_back({Kind::kFault,
@@ -245,18 +388,19 @@ std::vector<Finding> Diagnose(const DiagnosisOptions& options) {
   findings.push_back(ReachFinding(address));
   findings.push_back(BufferFinding(address, options.lcm_url));
 
-  const std::string own_channel = fmt::format("BUS_DOCTOR_{}", getpid());
-  const Listener listener(bus.get(), own_channel);
+  const std::string own_name = fmt::format("bus_doctor_{}", getpid());
+  const Listener listener(bus.get(), own_name);
   bus->Start();
-  bus->Publish(channel::kDiscover, DiscoverMessage{.sender = own_channel});
-  std::this_thread::sleep_for(options.listen);
-  for (Finding& finding : NeighbourFindings(listener.heard())) {
-    findings.push_back(std::move(finding));
+  for (const auto end = Clock::now() + options.listen; Clock::now() < end;) {
+    bus->Publish(channel::kDiscover, DiscoverMessage{.sender = own_name});
+    std::this_thread::sleep_for(std::min<Clock::duration>(kAskPeriod, end - Clock::now()));
   }
-  MeasureLoss(bus.get(), listener, own_channel, kSmallBytes, options.num_small, "messages of 1 kB",
-              &findings);
-  MeasureLoss(bus.get(), listener, own_channel, kLargeBytes, options.num_large, "messages of 1 MB",
-              &findings);
+  const Listener::Heard heard = listener.heard();
+  for (Finding& finding : NeighbourFindings(heard)) findings.push_back(std::move(finding));
+  for (Finding& finding : WayFindings(*bus, address, heard)) findings.push_back(std::move(finding));
+  LoopBack loop_back(address);
+  findings.push_back(loop_back.Measure(kSmallBytes, options.num_small, "messages of 1 kB"));
+  findings.push_back(loop_back.Measure(kLargeBytes, options.num_large, "messages of 1 MB"));
   return findings;
 }
 

@@ -7,10 +7,11 @@ namespace planbench {
 namespace {
 
 int Main(int argc, char** argv) {
-  Program program("bus_doctor",
-                  "Looks at the bus: multicast route, receive buffer, loss (measured), who else is "
-                  "on the port, versions; and says how to mend what is wrong. Exit code 1 if "
-                  "something is.");
+  Program program(
+      "bus_doctor",
+      "Looks at the bus: multicast route, receive buffer, who else is on the port, versions, "
+      "robots, loss on the way from others and within this machine; and says how to "
+      "mend what is wrong. Exit code 1 if something is.");
   return program.Run(argc, argv, [&] {
     bool healthy = true;
     for (const Finding& finding : Diagnose({.lcm_url = program.lcm_url()})) {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -55,7 +56,6 @@ class TwoHosts : public PipelineTest {
 
   static constexpr std::array kHosts = {"office", "robot"};
 
- private:
   static std::string Namespace(const std::string& host) {
     return fmt::format("{}-{}", host, getpid());
   }
@@ -107,6 +107,34 @@ TEST_F(TwoHosts, AnotherRobotOnOneOfThemIsRefused) {
   ExpectBadInput(StartOn("office", {Program("benchmark_driver"), "--discovery-timeout", "60",
                                     "--planners", "rrtc"}),
                  "another robot than the scene server");
+}
+
+TEST_F(TwoHosts, TheDoctorOnOneTellsWhatReachesIt) {
+  StartOn("office", SceneServer());
+  const auto doctor = [&](const std::string& bus) {
+    ChildProcess* process = StartOn("robot", {Program("bus_doctor"), "--lcm-url", bus});
+    process->Wait();
+    return process->Output();
+  };
+  std::string said;
+  EXPECT_TRUE(WaitUntil([&] {
+    said = doctor(url());
+    return said.find("1 of them on other machines") != std::string::npos;
+  })) << said;
+  EXPECT_THAT(said, testing::HasSubstr("messages leave this machine by 'wire' (MTU 1500 bytes)"));
+  std::string staying = url();
+  staying.replace(staying.find("ttl=1"), 5, "ttl=0");
+  EXPECT_THAT(doctor(staying),
+              testing::AllOf(testing::HasSubstr("does not hear this process"),
+                             testing::HasSubstr("FAULT  reach: scene_server (10.9.8.1:")));
+  ASSERT_TRUE(
+      Shell(fmt::format("ip -n {0} link set lo multicast on && "
+                        "ip -n {0} route replace 224.0.0.0/4 dev lo",
+                        Namespace("robot"))));
+  EXPECT_THAT(doctor(url()),
+              testing::AllOf(testing::HasSubstr("FAULT  reach: ttl=1, but the multicast route goes "
+                                                "by 'lo'"),
+                             testing::HasSubstr("ip route replace 224.0.0.0/4 dev wire")));
 }
 
 }  // namespace
