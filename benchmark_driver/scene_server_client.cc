@@ -26,6 +26,12 @@ constexpr int kServerFailures = 2;
 /// At how many problems in succession the scene server fails if the cause is in itself.
 constexpr std::size_t kProblemsFailedAt = 3;
 
+/// Of a scene server that was started by hand and has answered nothing yet.
+constexpr char kMayNotHear[] =
+    "; it has answered nothing yet: if it is not at work, it does not hear this process, though "
+    "this one hears it: ttl=0 in one --lcm-url, or a firewall, may be why, and bus_doctor on both "
+    "machines tells more";
+
 std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
                                                      const std::string& channel) {
   return [=](const PacketSender& sender) {
@@ -80,6 +86,7 @@ std::optional<Reply> SceneServerClient::AskServer(Service<Request, Reply>* servi
   const int failures_before = FailuresIn(turn);
   const auto fails = [&] { return FailuresIn(turn) >= kServerFailures; };
   std::chrono::milliseconds waited{0}, without_server{0};
+  const std::string reach = server_ || has_answered_ ? "" : kMayNotHear;
   while (!interrupted()) {
     std::string why = WhyPassedOver(turn->problem);
     if (why.empty() && fails()) {
@@ -92,7 +99,8 @@ std::optional<Reply> SceneServerClient::AskServer(Service<Request, Reply>* servi
         throw std::runtime_error(
             why +
             ", and whatever else it is asked for waits behind that: start it again, and if "
-            "it comes to that once more, leave the problem out (--problems-range)");
+            "it comes to that once more, leave the problem out (--problems-range)" +
+            reach);
       }
       server_->start_again();
       PassOver(*turn, why, &service->failed_at);
@@ -105,6 +113,7 @@ std::optional<Reply> SceneServerClient::AskServer(Service<Request, Reply>* servi
     }
     if (auto reply = service->client.Call(request, kServerRetry, patience_.until_told,
                                           [&] { return interrupted() || fails(); })) {
+      has_answered_ = true;
       // One that came in the place of another may know nothing of the scene: no answer to this.
       const bool is_answer = reply->ok || FailuresIn(turn) == failures_before;
       if (is_answer) service->failed_at.clear();
@@ -121,7 +130,7 @@ std::optional<Reply> SceneServerClient::AskServer(Service<Request, Reply>* servi
                       std::chrono::duration<double>(without_server).count(), what));
     }
     spdlog::warn("waiting for {} from the scene server ({})", what,
-                 is_live ? "it is live, but silent" + advice : "no scene server is live");
+                 is_live ? "it is live, but silent" + advice + reach : "no scene server is live");
   }
   return std::nullopt;
 }

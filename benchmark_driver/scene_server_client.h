@@ -113,6 +113,7 @@ class SceneServerClient {
   Service<ProblemRequestMessage, ProblemMessage> problems_;
   Service<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
   std::timed_mutex turn_;
+  bool has_answered_ = false;  // anything at all; whose turn it is
   std::mutex mutex_;
   std::map<ProblemKey, ProblemMessage> problems_known_;
   std::map<ProblemKey, ProblemMessage> problems_first_;  // as they were when first asked for

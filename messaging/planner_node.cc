@@ -18,9 +18,11 @@ constexpr std::chrono::milliseconds kSceneRequestPeriod{250};
 }  // namespace
 
 PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner,
-                         const std::vector<CollisionModel>& models)
+                         const std::vector<CollisionModel>& models,
+                         std::chrono::milliseconds scene_timeout)
     : bus_(bus),
       name_(name),
+      scene_timeout_(scene_timeout),
       channels_(name),
       planner_(std::move(planner)),
       description_(planner_->Describe()),
@@ -64,6 +66,10 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
   scene_messages_ = bus->Subscribe<SceneMessage>(
       channel::kScene, [this](SceneMessage&& message) { OnScene(std::move(message)); },
       [this](const MessageError& error) { OnBadScene(error); });
+  statuses_ = bus->SubscribeFrom<NodeStatusMessage>(
+      channel::kNodeStatus, [this](const NodeStatusMessage& status, const Origin& origin) {
+        OnStatus(status, origin.sender);
+      });
   cancels_ = bus->SubscribeFrom<PlanCancelMessage>(
       channels_.cancel, [this](const PlanCancelMessage& message, const Origin& origin) {
         OnCancel(message, origin.sender);
@@ -212,6 +218,13 @@ void PlannerNode::OnBadScene(const MessageError& error) {
   throw error;
 }
 
+void PlannerNode::OnStatus(const NodeStatusMessage& status, const PacketSender& sender) {
+  if (status.kind != NodeKind::kSceneServer) return;
+  const std::scoped_lock lock(mutex_);
+  scene_server_ = fmt::format("{} ({})", status.host, sender.Text());
+  scene_server_heard_ = Clock::now();
+}
+
 void PlannerNode::OnCancel(const PlanCancelMessage& message, const PacketSender& sender) {
   const std::scoped_lock lock(mutex_);
   if (job_ && job_->request.request_id == message.request_id) {
@@ -277,14 +290,25 @@ void PlannerNode::Finish(PlanResult result) {
 
 std::string PlannerNode::SceneRequestId() const { return name_ + "/" + job_->request.request_id; }
 
+std::string PlannerNode::WhoWasHeard() const {
+  if (scene_server_heard_ < job_->accepted) return ", nor was a scene server heard";
+  return fmt::format(
+      ", though the scene server on {} was heard: either it does not hear this process (ttl=0 in "
+      "this one's --lcm-url, a firewall), or large messages are lost on the way, as where MTUs "
+      "differ; bus_doctor on both machines tells their MTUs, and what else is wrong",
+      scene_server_);
+}
+
 void PlannerNode::FinishWithoutScene(PlanStatus status, std::string message) {
-  if (!job_->scene_fault.empty()) message += ": " + job_->scene_fault;
   const std::int64_t num_incomplete = bus_->counters().incomplete - job_->num_incomplete;
+  if (!job_->scene_fault.empty()) message += ": " + job_->scene_fault;
   if (num_incomplete > 0) {
     message += fmt::format(
         "; meanwhile {} large messages came in part only: receive buffers are too small "
         "(recv_buf_size of --lcm-url, net.core.rmem_max)",
         num_incomplete);
+  } else if (status != PlanStatus::kCancelled && job_->scene_fault.empty()) {
+    message += WhoWasHeard();
   }
   PlanResult result;
   result.status = status;
@@ -295,9 +319,10 @@ void PlannerNode::FinishWithoutScene(PlanStatus status, std::string message) {
 void PlannerNode::AskForScene() {
   const Clock::time_point now = Clock::now();
   if (!job_ || job_->scene || job_->control.cancelled) return;
-  if (now - job_->accepted > kSceneTimeout) {
+  if (now - job_->accepted > scene_timeout_) {
     FinishWithoutScene(PlanStatus::kInvalidRequest,
-                       fmt::format("no scene within {} s", kSceneTimeout.count()));
+                       fmt::format("no scene within {:g} s",
+                                   std::chrono::duration<double>(scene_timeout_).count()));
   } else if (now >= job_->next_scene_request) {
     bus_->Publish(channel::kSceneRequest,
                   SceneRequestMessage{SceneRequestId(), job_->request.scene_id});

@@ -37,7 +37,8 @@ class PlannerNode {
   /// Goes live when the planner has prepared the collision models that it is to offer, those of
   /// `models` that it can. `name` must be free on the bus.
   PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner,
-              const std::vector<CollisionModel>& models = EnumValues<CollisionModel>());
+              const std::vector<CollisionModel>& models = EnumValues<CollisionModel>(),
+              std::chrono::milliseconds scene_timeout = kSceneTimeout);
   /// Leaves. What is being solved is stopped, and gets no result; one that is ready is sent.
   ~PlannerNode();
 
@@ -60,6 +61,7 @@ class PlannerNode {
   void OnBadRequest(const MessageError& error);
   void OnScene(SceneMessage message);
   void OnBadScene(const MessageError& error);
+  void OnStatus(const NodeStatusMessage& status, const PacketSender& sender);
   void OnCancel(const PlanCancelMessage& message, const PacketSender& sender);
   NodeStatusMessage Status() const;
   std::string ReasonToRefuse(const PlanRequest& request) const;
@@ -67,6 +69,8 @@ class PlannerNode {
   void AskForScene();
   /// By which this node asks for the job's scene.
   std::string SceneRequestId() const;
+  /// Of a scene that did not come, though nothing is wrong with it: who was heard, and what to do.
+  std::string WhoWasHeard() const;
   /// Ends the job, which lacks its scene, and says why it does if that is known.
   void FinishWithoutScene(PlanStatus status, std::string message);
   /// Publishes the result of a request again; false if there is none.
@@ -77,6 +81,7 @@ class PlannerNode {
 
   Bus* bus_;
   std::string name_;
+  std::chrono::milliseconds scene_timeout_;
   PlannerChannels channels_;
   std::unique_ptr<Planner> planner_;
   PlannerDescription description_;  // with the collision models that can be used
@@ -89,10 +94,13 @@ class PlannerNode {
   std::unique_ptr<Job> job_;
   AnswerMemory results_;
   std::list<std::pair<std::string, std::shared_ptr<const Scene>>> scenes_;
+  std::string scene_server_;  // host and address of the one heard last
+  std::chrono::steady_clock::time_point scene_server_heard_;
 
   std::unique_ptr<NodeAnnouncer> announcer_;
   Subscription requests_;
   Subscription scene_messages_;
+  Subscription statuses_;
   Subscription cancels_;
   std::thread solver_;
 };

@@ -101,8 +101,9 @@ TEST_F(SilentSceneServerTest, ASceneServerStartedByHandThatDoesNotAnswerEndsTheS
   StaySilent();
   EXPECT_THAT([&] { executor.AskForProblem("cans", 2, [] { return false; }); },
               ThrowsMessage<std::runtime_error>(
-                  HasSubstr("asked for the problem cans 2, and whatever else it is asked for waits "
-                            "behind that: start it again")));
+                  AllOf(HasSubstr("asked for the problem cans 2, and whatever else it is asked for "
+                                  "waits behind that: start it again"),
+                        HasSubstr("it has answered nothing yet"), HasSubstr("ttl=0"))));
 }
 
 /// With a scene server whose failures are counted, as those of a child are.

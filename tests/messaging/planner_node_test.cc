@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <limits>
 #include <memory>
 #include <thread>
@@ -41,7 +42,7 @@ class PlannerNodeTest : public testing::Test {
         std::make_unique<ScriptedPlanner>(
             PlanarRobot(), [this](SearchQuery& query) { return Search(query); },
             std::move(description)),
-        models);
+        models, scene_timeout_);
     runner_ = std::thread([this] { node_->Run([this] { return stop_.load(); }); });
   }
   void StopNode() {
@@ -126,6 +127,7 @@ class PlannerNodeTest : public testing::Test {
   const PlannerChannels channels_{"arm"};
   const Scene scene_ = EmptyPlanarScene();
   std::atomic<int> num_searches_ = 0;
+  std::chrono::milliseconds scene_timeout_ = PlannerNode::kSceneTimeout;
   std::atomic<bool> hold_ = false;
   std::atomic<bool> has_path_ = false;  // in hand when it is cancelled
   MessageCollector<PlanResultMessage> results_{&bus_, channels_.result};
@@ -444,6 +446,23 @@ TEST_F(PlannerNodeTest, SaysWhyItLacksTheScene) {
               HasSubstr("scene: it was eaten"));
   // What others are sent is nothing to this one.
   EXPECT_THAT(lack("c", {"leg/c", scene_id, true, "", bad}), testing::EndsWith("the scene"));
+}
+
+TEST_F(PlannerNodeTest, OfASceneThatDoesNotComeItTellsWhoWasHeard) {
+  scene_timeout_ = std::chrono::milliseconds(500);
+  StartNode();
+  Send(Request("a"));
+  EXPECT_EQ(ResultOf("a", PlanStatus::kInvalidRequest).result.message,
+            "no scene within 0.5 s, nor was a scene server heard");
+  NodeStatusMessage server = MakeNodeStatus("scene_server", NodeKind::kSceneServer);
+  server.host = "office";
+  const Subscription asked = bus_.Subscribe<SceneRequestMessage>(
+      channel::kSceneRequest,
+      [&](const SceneRequestMessage&) { bus_.Publish(channel::kNodeStatus, server); });
+  Send(Request("b"));
+  EXPECT_THAT(ResultOf("b", PlanStatus::kInvalidRequest).result.message,
+              AllOf(HasSubstr("no scene within 0.5 s, though the scene server on office ("),
+                    HasSubstr("ttl=0"), HasSubstr("MTUs differ"), HasSubstr("bus_doctor")));
 }
 
 class PlannerNodeOnTheNetworkTest : public PlannerNodeTest {
