@@ -36,7 +36,7 @@ NetworkInterface Describe(int socket_fd, const char* name) {
   NetworkInterface described;
   described.name = name;
   ifreq request = {};
-  std::strncpy(request.ifr_name, name, sizeof(request.ifr_name) - 1);
+  described.name.copy(request.ifr_name, sizeof(request.ifr_name) - 1);
   if (ioctl(socket_fd, SIOCGIFFLAGS, &request) == 0) {
     described.is_loopback = (request.ifr_flags & IFF_LOOPBACK) != 0;
   }
