@@ -35,25 +35,40 @@ bool IsNameOfAnother(const std::string& name, const std::string& planner,
 
 }  // namespace
 
+std::map<std::string, std::string> NamesGiven(const std::vector<SessionMessage>& earlier) {
+  NamesByPlanner names;
+  for (const SessionMessage& session : earlier) {
+    for (const Contestant& one : session.conditions.contestants) {
+      names.try_emplace(one.planner, one.name);
+    }
+  }
+  return names;
+}
+
 std::map<std::string, std::string> ContestantNames(
     const std::vector<LineUpEntry>& line_up,
-    const std::map<std::string, NodeStatusMessage>& planners) {
+    const std::map<std::string, NodeStatusMessage>& planners,
+    const std::map<std::string, std::string>& given) {
   NamesByPlanner without_first;
   for (const LineUpEntry& entry : line_up) {
     const Contestant& one = entry.contestant;
     without_first[one.planner] = one.name.empty() ? OwnName(planners.at(one.planner)) : one.name;
   }
-  NamesByPlanner wanted = without_first;
+  NamesByPlanner settled = given;
   for (const LineUpEntry& entry : line_up) {
     const Contestant& one = entry.contestant;
-    if (!one.name.empty() || one.first_path_of.empty()) continue;
-    wanted[one.planner] += fmt::format(" after {}", without_first.at(one.first_path_of));
+    if (!one.name.empty()) settled[one.planner] = one.name;
+  }
+  NamesByPlanner wanted = settled;
+  for (const LineUpEntry& entry : line_up) {
+    const Contestant& one = entry.contestant;
+    const auto [place, is_new] = wanted.try_emplace(one.planner, without_first.at(one.planner));
+    if (!is_new || one.first_path_of.empty()) continue;
+    place->second += fmt::format(" after {}", without_first.at(one.first_path_of));
   }
   NamesByPlanner names = wanted;
-  for (const LineUpEntry& entry : line_up) {
-    if (!entry.contestant.name.empty()) continue;
-    const std::string& planner = entry.contestant.planner;
-    std::string& name = names[planner];
+  for (auto& [planner, name] : names) {
+    if (settled.contains(planner)) continue;
     while (IsNameOfAnother(name, planner, wanted) || IsNameOfAnother(name, planner, names)) {
       name += fmt::format(" [{}]", planner);
     }

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "benchmark_driver/await_nodes.h"
+#include "benchmark_driver/contestant_names.h"
 #include "benchmark_driver/earlier_plan.h"
 #include "benchmark_driver/session_contestants.h"
 #include "common/error.h"
@@ -96,7 +97,8 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   }
   served_ = *registry_.ProblemSets();
   scene_server_ = registry_.Find(served_.server, NodeKind::kSceneServer);
-  FoundPlanners found_planners = CompleteConditions(registry_, served_, line_up_, &options_);
+  FoundPlanners found_planners =
+      CompleteConditions(registry_, served_, line_up_, NamesGiven(earlier_.sessions), &options_);
   planners_ = std::move(found_planners.planners);
   first_planners_ = std::move(found_planners.first_planners);
   const PlannedCall call = PlanCall(options_, PlannedPlanners(), served_);

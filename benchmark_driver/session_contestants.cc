@@ -83,7 +83,9 @@ void AddContestant(const NodeRegistry& registry, const ProblemSetsMessage& serve
 }  // namespace
 
 FoundPlanners CompleteConditions(const NodeRegistry& registry, const ProblemSetsMessage& served,
-                                 const std::vector<LineUpEntry>& line_up, DriverOptions* options) {
+                                 const std::vector<LineUpEntry>& line_up,
+                                 const std::map<std::string, std::string>& names,
+                                 DriverOptions* options) {
   SessionConditions& conditions = options->conditions;
   PlanRequest& request = conditions.request;
   request.robot_id = served.robot_id;
@@ -95,9 +97,9 @@ FoundPlanners CompleteConditions(const NodeRegistry& registry, const ProblemSets
   conditions.referee_robot_id = served.referee_robot_id;
   FoundPlanners found;
   for (const LineUpEntry& entry : line_up) AddContestant(registry, served, entry, options, &found);
-  const std::map<std::string, std::string> names = ContestantNames(line_up, found.planners);
+  const std::map<std::string, std::string> all = ContestantNames(line_up, found.planners, names);
   for (std::vector<Contestant>* contestants : {&conditions.contestants, &found.first_planners}) {
-    for (Contestant& one : *contestants) one.name = names.at(one.planner);
+    for (Contestant& one : *contestants) one.name = all.at(one.planner);
   }
   return found;
 }

@@ -18,9 +18,11 @@ struct FoundPlanners {
 };
 
 /// Completes the session's conditions, contestants included, by what the scene server (`served`)
-/// and the planners of the line-up say of themselves. Throws InputError for planners that do not
-/// fit.
+/// and the planners of the line-up say of themselves. `names`: NamesGiven. Throws InputError for
+/// planners that do not fit.
 FoundPlanners CompleteConditions(const NodeRegistry& registry, const ProblemSetsMessage& served,
-                                 const std::vector<LineUpEntry>& line_up, DriverOptions* options);
+                                 const std::vector<LineUpEntry>& line_up,
+                                 const std::map<std::string, std::string>& names,
+                                 DriverOptions* options);
 
 }  // namespace planbench

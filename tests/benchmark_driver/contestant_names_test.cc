@@ -9,9 +9,10 @@ namespace {
 using testing::ElementsAre;
 using testing::Pair;
 
-/// Of a line-up that names those of `own` itself.
+/// Of a line-up that names those of `own` itself, in a session that called its own as `given`.
 std::map<std::string, std::string> NamesOf(const std::map<std::string, std::string>& algorithms,
-                                           const std::map<std::string, std::string>& own = {}) {
+                                           const std::map<std::string, std::string>& own = {},
+                                           const std::map<std::string, std::string>& given = {}) {
   std::vector<LineUpEntry> line_up;
   std::map<std::string, NodeStatusMessage> planners;
   for (const auto& [planner, algorithm] : algorithms) {
@@ -21,7 +22,7 @@ std::map<std::string, std::string> NamesOf(const std::map<std::string, std::stri
     const auto named = own.find(planner);
     if (named != own.end()) line_up.back().contestant.name = named->second;
   }
-  return ContestantNames(line_up, planners);
+  return ContestantNames(line_up, planners, given);
 }
 
 TEST(ContestantNamesTest, OneThatCallsItsAlgorithmNothingHasItsNameOnTheBus) {
@@ -41,6 +42,29 @@ TEST(ContestantNamesTest, WhatTellsNamesApartMakesNoneThatIsAnothers) {
               ElementsAre(Pair("a", "X [a]"), Pair("b", "X [b] [b]"), Pair("c", "X [b]")));
   EXPECT_THAT(NamesOf({{"a", "X"}, {"b", "X"}, {"c", "Y"}}, {{"c", "X [a]"}}),
               ElementsAre(Pair("a", "X [a] [a]"), Pair("b", "X [b]"), Pair("c", "X [a]")));
+}
+
+TEST(ContestantNamesTest, WhoHasOneInTheSessionKeepsItWhoeverElseTakesPart) {
+  EXPECT_THAT(NamesOf({{"a", "X"}}, {}, {{"a", "X [a]"}, {"b", "X [b]"}}),
+              ElementsAre(Pair("a", "X [a]"), Pair("b", "X [b]")));
+  EXPECT_THAT(NamesOf({{"a", "X"}, {"b", "X"}}, {}, {{"b", "X"}}),
+              ElementsAre(Pair("a", "X [a]"), Pair("b", "X")));
+  EXPECT_THAT(NamesOf({{"a", "X"}}, {}, {{"b", "X"}}),
+              ElementsAre(Pair("a", "X [a]"), Pair("b", "X")));
+  EXPECT_THAT(NamesOf({{"a", "X"}}, {{"a", "Mine"}}, {{"a", "X"}}), ElementsAre(Pair("a", "Mine")));
+}
+
+TEST(ContestantNamesTest, OfASessionTheFirstCount) {
+  std::vector<SessionMessage> earlier(2);
+  earlier[0].conditions.contestants.resize(1);
+  earlier[0].conditions.contestants[0].planner = "a";
+  earlier[0].conditions.contestants[0].name = "X";
+  earlier[1] = earlier[0];
+  earlier[1].conditions.contestants.resize(2);
+  earlier[1].conditions.contestants[0].name = "Y";
+  earlier[1].conditions.contestants[1].planner = "b";
+  earlier[1].conditions.contestants[1].name = "Z";
+  EXPECT_THAT(NamesGiven(earlier), ElementsAre(Pair("a", "X"), Pair("b", "Z")));
 }
 
 TEST(ContestantNamesTest, AVeryLongOneIsCut) {

@@ -49,6 +49,7 @@ class OtherFlagsTest : public DriverTest {
     std::vector<LineUpEntry> line_up = LineUp(planners);
     line_up.front().directions = first_directions_;
     line_up.front().contestant.about = first_about_;
+    line_up.front().contestant.name = first_name_;
     return std::make_unique<Driver>(&bus_, options, line_up, flags, earlier_.Earlier());
   }
 
@@ -116,7 +117,7 @@ class OtherFlagsTest : public DriverTest {
   bool skips_bad_problems_ = false;
   Shard shard_;
   std::optional<Directions> first_directions_;  ///< Of its first contestant.
-  std::string first_about_;
+  std::string first_about_, first_name_;
   SessionMessage told_;  // last
   std::string command_;
 };
@@ -327,9 +328,41 @@ TEST_F(OtherFlagsTest, NoContestantTakesTheNameOfAnother) {
     std::erase_if(session.conditions.contestants, [](const auto& c) { return c.planner == "arm"; });
   }
   earlier_.sessions.front().conditions.contestants.front().planner = "another";
-  earlier_.sessions.front().conditions.contestants.front().name = arm_.status.algorithm;
+  earlier_.sessions.front().conditions.contestants.front().name = "Taken*";
+  first_name_ = "Taken*";
   ExpectInputError([&] { Resume({"arm"}, 1)->Discover(false, Idle); },
-                   {"--resume", "'arm'", "'another'", "'Fake*'"});
+                   {"--resume", "'arm'", "'another'", "'Taken*'"});
+}
+
+TEST_F(OtherFlagsTest, NamesThatTellOneAlgorithmsPlannersApartStayWhoeverIsAskedFor) {
+  leg_.status.algorithm = arm_.status.algorithm;
+  Reannounce(&leg_);
+  const auto expect_names = [this](const std::string& of_arm, const std::string& of_leg) {
+    std::map<std::string, std::string> names;
+    for (const Contestant& one : told_.conditions.contestants) names[one.planner] = one.name;
+    EXPECT_EQ(names, (std::map<std::string, std::string>{{"arm", of_arm}, {"leg", of_leg}}));
+    std::map<std::string, std::string> recorded;
+    for (const RunRecordMessage& record : earlier_.runs) {
+      EXPECT_EQ(names[record.planner], record.contestant);
+    }
+  };
+  Make({"arm", "leg"}, 1, 0);
+  expect_names("Fake* [arm]", "Fake* [leg]");
+  Kill();
+  Make({"arm"}, 1, 4);
+  Make({"leg", "arm"}, 1, 0);
+  expect_names("Fake* [arm]", "Fake* [leg]");
+
+  // As if the leg had been alone at first.
+  Kill();
+  SessionMessage& begun = earlier_.sessions.front();
+  std::erase_if(begun.conditions.contestants, [](const auto& c) { return c.planner == "arm"; });
+  begun.conditions.contestants.front().name = "Fake*";
+  begun.settings.erase(kPlanSetting);
+  earlier_.runs.clear();
+  begun.num_runs = 0;
+  Make({"arm", "leg"}, 1, 0);
+  expect_names("Fake* [arm]", "Fake*");
 }
 
 }  // namespace
