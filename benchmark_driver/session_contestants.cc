@@ -10,6 +10,7 @@
 #include "benchmark_driver/contestant_names.h"
 #include "common/error.h"
 #include "common/file_kind.h"
+#include "common/lookup.h"
 #include "common/sibling_program.h"
 #include "messaging/codec.h"
 #include "planning/path_judge.h"
@@ -17,9 +18,12 @@
 namespace planbench {
 namespace {
 
-/// Planbench's own, not one that a command starts, or somebody else's.
-bool IsOwn(const LineUpEntry& entry) {
-  return entry.contestant.command.empty() && IsFile(ProgramFolder() / ("planner_" + entry.program));
+/// Planbench's own by its own word, whatever its name on the bus and whoever started it; or by the
+/// line-up's, since builds of before do not tell.
+bool IsOwn(const NodeStatusMessage& planner, const LineUpEntry& entry) {
+  const auto is_ours = [](const std::string& program) { return IsFile(ProgramFolder() / program); };
+  return is_ours(Lookup(planner.settings, kProgramSetting).value_or("")) ||
+         (entry.contestant.command.empty() && is_ours("planner_" + entry.program));
 }
 
 /// Throws InputError for a planner that says more of itself than every record can hold: messages
@@ -42,7 +46,7 @@ void AddContestant(const NodeRegistry& registry, const ProblemSetsMessage& serve
   const std::string& name = entry.contestant.planner;
   const auto planner = registry.Find(name, NodeKind::kPlanner);
   if (!planner) throw InputError("the planner '" + name + "' has left the bus");
-  if (IsOwn(entry)) RequireSameBuild(*planner);
+  if (IsOwn(*planner, entry)) RequireSameBuild(*planner);
   if (planner->robot_id != served.robot_id) {
     throw InputError(fmt::format(
         "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",

@@ -29,6 +29,9 @@ struct EnumNames<NodeKind> {
       std::to_array<std::string_view>({"scene server", "planner", "driver", "logger"});
 };
 
+/// Setting of a planner that PlannerMain runs: its program, "planner_rrtc", whatever its name.
+inline constexpr char kProgramSetting[] = "program";
+
 struct NodeStatusMessage {
   std::int64_t utime = 0;        ///< us since the Unix epoch.
   std::int64_t start_utime = 0;  ///< us since the Unix epoch.

@@ -14,7 +14,8 @@ namespace planbench {
 
 int PlannerMain(int argc, char** argv, const std::string& planner, const std::string& description,
                 const PlannerFactory& factory, const std::vector<SettingFlag>& setting_flags) {
-  Program program("planner_" + planner, description);
+  const std::string program_name = "planner_" + planner;
+  Program program(program_name, description);
   RobotFlags robot_flags;
   std::string name = planner;
   std::string config;
@@ -53,7 +54,7 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
     std::unique_ptr<Planner> solver =
         factory(robot, LoadPlannerSettings(robot, planner, config, overrides, origins));
     Bus bus(program.lcm_url());
-    PlannerNode node(&bus, name, std::move(solver), models);
+    PlannerNode node(&bus, name, std::move(solver), models, program_name);
     bus.Start();
     spdlog::info("planner '{}' is live on {}", name, bus.url());
     node.Run(AwaitStopSignals());

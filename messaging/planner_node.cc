@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds kSceneRequestPeriod{250};
 }  // namespace
 
 PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner,
-                         const std::vector<CollisionModel>& models,
+                         const std::vector<CollisionModel>& models, const std::string& program,
                          std::chrono::milliseconds scene_timeout)
     : bus_(bus),
       name_(name),
@@ -56,6 +56,7 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
     status_.collision_models.emplace_back(EnumName(model));
   }
   status_.settings = description_.settings;
+  if (!program.empty()) status_.settings[kProgramSetting] = program;
 
   requests_ = bus->SubscribeFrom<PlanRequest>(
       channels_.request,

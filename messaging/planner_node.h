@@ -35,9 +35,11 @@ class PlannerNode {
   static constexpr std::chrono::seconds kSceneTimeout{10};
 
   /// Goes live when the planner has prepared the collision models that it is to offer, those of
-  /// `models` that it can. `name` must be free on the bus.
+  /// `models` that it can. `name` must be free on the bus. `program`: announced as
+  /// kProgramSetting, if it has a name.
   PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner,
               const std::vector<CollisionModel>& models = EnumValues<CollisionModel>(),
+              const std::string& program = "",
               std::chrono::milliseconds scene_timeout = kSceneTimeout);
   /// Leaves. What is being solved is stopped, and gets no result; one that is ready is sent.
   ~PlannerNode();

@@ -1,8 +1,10 @@
 #include "benchmark_driver/driver.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <regex>
 #include <set>
@@ -10,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "common/version.h"
 #include "robot_model/referee_misfits.h"
 #include "tests/benchmark_driver/driver_fixture.h"
 
@@ -362,6 +365,23 @@ TEST_F(DriverTest, ALoggerOfAnotherBuildIsRefused) {
   Driver driver(&bus_, Options(), LineUp({"arm"}), {});
   ExpectInputError([&] { driver.Discover(true, Idle); },
                    {"logger 'store'", "another build", "older"});
+}
+
+TEST_F(DriverTest, APlannerOfAnotherBuildIsRefusedWhateverItsNameUnlessItIsForeign) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  planner.status.version = "0.0.1";
+  planner.status.settings["program"] = "planner_of_somebody_else";
+  Reannounce(&planner);
+  Driver(&bus_, Options(), LineUp({"arm"}), {}).Discover(false, Idle);
+  // One beside the driver: this test.
+  planner.status.settings["program"] =
+      std::filesystem::read_symlink("/proc/self/exe").filename().string();
+  Reannounce(&planner);
+  ExpectNotDiscovered(Options(), {"planner 'arm'", "another build", "0.0.1"});
+  planner.status.version = Version();
+  Reannounce(&planner);
+  Driver(&bus_, Options(), LineUp({"arm"}), {}).Discover(false, Idle);
 }
 
 TEST_F(DriverTest, RunIdsAreDatedAndDiffer) {

@@ -42,7 +42,7 @@ class PlannerNodeTest : public testing::Test {
         std::make_unique<ScriptedPlanner>(
             PlanarRobot(), [this](SearchQuery& query) { return Search(query); },
             std::move(description)),
-        models, scene_timeout_);
+        models, std::string(), scene_timeout_);
     runner_ = std::thread([this] { node_->Run([this] { return stop_.load(); }); });
   }
   void StopNode() {
@@ -181,6 +181,18 @@ TEST_F(PlannerNodeTest, OffersTheModelsThatItWasStartedForAlone) {
   request.collision_model = CollisionModel::kVoxels;
   EXPECT_EQ(SendForAck(request).verdict, Verdict::kWorking);
   ResultOf("b");
+}
+
+TEST_F(PlannerNodeTest, TellsItsProgramWhateverItsName) {
+  MessageCollector<NodeStatusMessage> statuses(&bus_, channel::kNodeStatus);
+  const PlannerNode node(
+      &bus_, "arm",
+      std::make_unique<ScriptedPlanner>(PlanarRobot(), StraightLine, ScriptedPlanner::Able()),
+      {CollisionModel::kSpheres}, "planner_scripted");
+  const auto heard = statuses.WaitFor(1);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_EQ(heard[0].settings, (std::map<std::string, std::string>{
+                                   {"key", "value"}, {"program", "planner_scripted"}}));
 }
 
 TEST_F(PlannerNodeTest, TellsOfModelsThatItWasAskedForAndCannotUse) {

@@ -115,7 +115,8 @@ TEST_F(LaunchedSession, ALineUpsContestantsRunUnderTheirOwnConditions) {
             1);
   EXPECT_EQ(Query(session,
                   "SELECT count(*) FROM runs JOIN plannerConfigs p ON p.id = plannerid WHERE "
-                  "p.settings LIKE '%range = 2%' AND collision_model = 'voxels'"),
+                  "p.settings LIKE '%program = planner_rrtc%range = 2%' AND "
+                  "collision_model = 'voxels'"),
             1);
   const std::string output = driver->Output();
   EXPECT_NE(output.find("RRT-Connect (balanced) [swept_range_0_5]"), std::string::npos) << output;
