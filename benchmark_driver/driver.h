@@ -84,6 +84,10 @@ class Driver {
   std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }
   /// Planners that were given up, and why.
   std::map<std::string, std::string> given_up() const { return asked_->given_up(); }
+  /// Of these and of others that were not asked for runs: why, and for how many, in lines.
+  std::vector<std::string> UnaskedRunLines() const {
+    return executor_->unasked().Lines(given_up());
+  }
   /// SessionMessage's.
   const std::map<std::string, std::string>& left_out() const { return left_out_; }
   /// Complete once the processes are found.

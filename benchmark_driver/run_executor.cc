@@ -300,7 +300,11 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
       record.status = PlanStatus::kNoAnswer;
       record.roundtrip_time_s = answer.roundtrip_time_s;
       record.message = answer.message;
-      spdlog::error("{}: no answer: {}", run.request_id, answer.message);
+      if (answer.roundtrip_time_s > 0) {
+        spdlog::error("{}: no answer: {}", run.request_id, answer.message);
+      } else {
+        unasked_.Add(run.request_id, run.planner, answer.message);
+      }
       return record;
     case PlannerClient::Outcome::kResult:
       break;

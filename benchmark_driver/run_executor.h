@@ -9,6 +9,7 @@
 #include "benchmark_driver/planner_client.h"
 #include "benchmark_driver/scene_server_client.h"
 #include "benchmark_driver/schedule.h"
+#include "benchmark_driver/unasked_runs.h"
 
 namespace planbench {
 
@@ -53,6 +54,9 @@ class RunExecutor {
   bool WarmUp(const ScheduledRun& run, double time_limit_s, PlannerClient* planner,
               const std::function<bool()>& interrupted);
 
+  /// Runs whose planners were not asked.
+  const UnaskedRuns& unasked() const { return unasked_; }
+
  private:
   struct Asked {
     PlannerClient::Answer answer;
@@ -76,6 +80,7 @@ class RunExecutor {
   std::vector<Contestant> first_planners_;
   KernelFolders kernel_;
   SceneServerClient scene_server_;
+  UnaskedRuns unasked_;
 };
 
 }  // namespace planbench

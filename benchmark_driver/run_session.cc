@@ -259,9 +259,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   WriteOut(fmt::format("\n{}", tables.brief));
   std::fflush(stdout);
   for (const std::string& line : driver.Shortcomings()) spdlog::error("{}", line);
-  for (const auto& [planner, reason] : driver.given_up()) {
-    spdlog::error("the planner '{}' was given up: {}", planner, reason);
-  }
+  for (const std::string& line : driver.UnaskedRunLines()) spdlog::error("{}", line);
   if (const int number = driver.num_not_asked(); supervisor && number > 0 && !interrupted()) {
     spdlog::warn("{} could not be asked for or judged: {}",
                  number == 1 ? "1 run" : fmt::format("{} runs", number),

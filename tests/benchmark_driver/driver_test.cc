@@ -262,6 +262,9 @@ TEST_F(DriverTest, OneThatIsGivenUpLeavesTheOthersTheirRuns) {
     }
   }
   EXPECT_EQ(driver.num_not_asked(), static_cast<int>(not_asked.size()));
+  EXPECT_EQ(
+      driver.UnaskedRunLines(),
+      std::vector{fmt::format("the planner 'arm': given up: it died ({} runs)", not_asked.size())});
   EXPECT_GE(num_solved, 4);
   EXPECT_GE(not_asked.size(), 2u);
   EXPECT_FALSE(logger.sessions().messages().back().finished) << "they are still to be made";
