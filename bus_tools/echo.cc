@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <ctime>
 #include <sstream>
 
 #include "common/text.h"
@@ -21,9 +22,10 @@ std::string Cut(const std::string& line, std::size_t length) {
 }
 
 std::string TimeOfDay(std::int64_t utime) {
-  const std::chrono::system_clock::time_point time{std::chrono::microseconds(utime)};
-  return fmt::format("{:%H:%M:%S}.{:03}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)),
-                     utime / 1000 % 1000);
+  const std::chrono::microseconds time(utime);
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
+  return fmt::format("{:%H:%M:%S}.{:03}", fmt::gmtime(std::time_t{seconds.count()}),
+                     (time - seconds) / std::chrono::milliseconds(1));
 }
 
 }  // namespace

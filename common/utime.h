@@ -1,16 +1,22 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
+#include <ctime>
 
 namespace planbench {
+
+/// us since the Unix epoch of a time of day.
+inline std::int64_t UtimeOf(const std::timespec& time) {
+  return static_cast<std::int64_t>(time.tv_sec) * 1'000'000 + time.tv_nsec / 1000;
+}
 
 /// us since the Unix epoch: what stands in messages and logs. It can jump; for durations there is
 /// the steady clock.
 inline std::int64_t NowUtime() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
+  std::timespec now{};
+  // Not std::chrono::system_clock, whose nanoseconds overflow in the year 2262.
+  clock_gettime(CLOCK_REALTIME, &now);
+  return UtimeOf(now);
 }
 
 }  // namespace planbench

@@ -27,6 +27,13 @@ TEST(EchoText, ShowsWhenWhereWhatAndTheFields) {
   EXPECT_THAT(text, HasSubstr("\n  sender: \"me\"\n"));
 }
 
+TEST(EchoText, TellsTimesBeyondTheYear2262) {
+  constexpr std::int64_t k2370 = 12'622'780'800'000'000;
+  ReceivedMessage message = Discover("me");
+  message.utime = k2370 + 3'723'004'000;
+  EXPECT_THAT(EchoText(message, {}), StartsWith("01:02:03.004  DISCOVER"));
+}
+
 TEST(EchoText, IsOneLineWithoutFields) {
   const std::string text = EchoText(Discover("me"), {.fields = false});
   EXPECT_THAT(text, StartsWith("03:04:05.678  DISCOVER  lcmt_discover, "));
