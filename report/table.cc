@@ -42,6 +42,9 @@ std::string LatexText(const std::string& text) {
       case '\\':
         escaped += "\\textbackslash{}";
         break;
+      case '-':  // Two would be one dash.
+        escaped += escaped.ends_with('-') ? "{}-" : "-";
+        break;
       case '~':
         escaped += "\\textasciitilde{}";
         break;
@@ -162,6 +165,8 @@ std::string TableLatex(const Table& table) {
   std::string latex =
       fmt::format("% {}\n\\begin{{tabular}}{{{}}}\n\\toprule\n", table.title, layout);
   const auto add_row = [&](const std::vector<std::string>& texts) {
+    // The end of the row before would take these for what belongs to it.
+    if (texts.front().starts_with('[') || texts.front().starts_with('*')) latex += "{}";
     for (std::size_t i = 0; i < texts.size(); ++i) {
       latex += (i > 0 ? " & " : "") + LatexText(texts[i]);
     }

@@ -64,6 +64,18 @@ TEST(TableTest, LatexEscapesWhatItWouldInterpret) {
             std::string::npos);
 }
 
+TEST(TableTest, LatexKeepsDashesAndWhatARowBeginsWith) {
+  Table table = Example();
+  table.rows = {{std::string("[b] --time 1, ---"), Cell(), 1},
+                {std::string("*star, a-b"), Cell(), 1},
+                {std::string("ARA* [x]"), Cell(), 1}};
+  const std::string latex = TableLatex(table);
+  EXPECT_NE(latex.find("\\midrule\n{}[b] -{}-time 1, -{}-{}- & - & 1 \\\\\n"), std::string::npos)
+      << latex;
+  EXPECT_NE(latex.find("\n{}*star, a-b & - & 1 \\\\\n"), std::string::npos) << latex;
+  EXPECT_NE(latex.find("\nARA* [x] & - & 1 \\\\\n"), std::string::npos) << latex;
+}
+
 TEST(TableTest, JsonHoldsWhatIsShown) {
   const Json json = TableJson(Example());
   EXPECT_EQ(json["rows"][0][1], "0.100 [0.0500, 0.250]");
