@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <utility>
 
 #include "common/numbers.h"
@@ -179,7 +180,7 @@ Json ProblemTimesJson(const Outcomes& outcomes) {
   Json problem = Json::array(), time = Json::array();
   for (const auto& [index, trials] : outcomes.by_problem) {
     problem.push_back(index);
-    time.push_back(Rounded(kMsPerS * ProblemTime(trials)));
+    time.push_back(TookNoTime(trials) ? Json(0) : Rounded(kMsPerS * ProblemTime(trials)));
   }
   return {{"problem", std::move(problem)}, {"time", std::move(time)}};
 }
@@ -236,7 +237,12 @@ Json SetJson(const ComparedSessions& compared, const std::string& name,
         const PhaseTimes mean = MeanPhases(runs);
         if (!mean.AreTold()) return nullptr;
         const double total = mean.setup_s + mean.collision_s + mean.guidance_s + mean.search_s;
-        return {{"total", Rounded(kMsPerS * total)},
+        std::set<int> problems;
+        for (const StoredRun* run : runs) {
+          if (run->phases.AreTold()) problems.insert(run->problem_index);
+        }
+        return {{"problems", problems.size()},
+                {"total", Rounded(kMsPerS * total)},
                 {"shares",
                  {Rounded(mean.setup_s / total), Rounded(mean.collision_s / total),
                   Rounded(mean.guidance_s / total), Rounded(mean.search_s / total)}}};

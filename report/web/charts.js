@@ -2,8 +2,10 @@
 // Vega specifications of the figures. They place numbers of the data and compute none.
 const charts = (() => {
   // ---- Parts ------------------------------------------------------------------------------------
-  const english = new Intl.NumberFormat("en");  // once: it takes as long to make as all points to draw
-  const shortNumber = value => value == null ? "-" : english.format(Number(value.toPrecision(3)));
+  // Once: it takes as long to make as all points to draw.
+  const english = new Intl.NumberFormat("en", {maximumSignificantDigits: 3});
+  const shortNumber = value => value == null ? "-" : english.format(value);
+  const problems = number => `${number} problem${number === 1 ? "" : "s"}`;
   const percent = share => (100 * share).toFixed(1) + " %";
 
   // From a power of ten to a little above the largest of positive values, a decade at least.
@@ -15,6 +17,11 @@ const charts = (() => {
     if (high === 0) return [1, 10];
     const power = 10 ** Math.floor(Math.log10(low));
     return [power, Math.max(1.15 * high, 10 * power)];
+  }
+  // That of times on scales that clamp: a time of 0, of which there is no logarithm, stands a decade before all others at least.
+  function timeDomain(times) {
+    const [low, high] = logDomain(times);
+    return [times.includes(0) ? low / 10 : low, high];
   }
   // Powers of ten, with their multiples by 2 and 5 where there are few.
   function logTicks([low, high]) {
@@ -131,9 +138,10 @@ const charts = (() => {
       }
     });
     const limits = values.map(value => value.limit);
-    const limit = Math.max(...limits);
+    const limit = Math.max(...limits);  // 0: not known
     const crowded = Math.max(...values.map(value => value.time.length)) > 150;
-    const domain = logDomain([...runs.map(run => run.time).filter(time => time != null), limit]);
+    const solved = runs.map(run => run.time).filter(time => time != null);
+    const domain = timeDomain(limit > 0 ? [...solved, limit] : solved);
     const column = 86;
     const jittered = {scale: "y", field: "y", offset: {signal: `datum.jitter * ${0.8 * r.band}`}};
     return {
@@ -144,14 +152,15 @@ const charts = (() => {
         {name: "medians", values: medians}, {name: "intervals", values: medians.filter(one => one.lower != null)},
         {name: "counts", values: failed},
       ],
-      scales: [r.scale, {name: "x", type: "log", domain, range: besideColumn(column)}],
+      scales: [r.scale, {name: "x", type: "log", domain, range: besideColumn(column), clamp: true}],
       axes: [r.axis, logAxis("x", "bottom", domain, "planning time, ms")],
       marks: [
-        {type: "rule", encode: {update: {
-          x: {scale: "x", value: limit}, y: {value: 0}, y2: {signal: "height"}, strokeDash: {value: [4, 3]}}}},
-        {type: "text", encode: {update: {
-          x: {scale: "x", value: limit}, y: {value: -4}, align: {value: "right"},
-          text: {value: limits.every(one => one === limit) ? "limit" : "longest limit"}}}},
+        ...(limit > 0 ? [
+          {type: "rule", name: "limit", encode: {update: {
+            x: {scale: "x", value: limit}, y: {value: 0}, y2: {signal: "height"}, strokeDash: {value: [4, 3]}}}},
+          {type: "text", encode: {update: {
+            x: {scale: "x", value: limit}, y: {value: -4}, align: {value: "right"},
+            text: {value: limits.every(one => one === limit) ? "limit" : "longest limit"}}}}] : []),
         {type: "text", encode: {update: {
           x: {signal: "width"}, y: {value: -4}, align: {value: "right"}, text: {value: "not solved"}}}},
         {type: "symbol", name: "solved-runs", from: {data: "solved"}, encode: {update: {
@@ -230,7 +239,7 @@ const charts = (() => {
   // points: [{x, y, label, open}], times in ms, null where not solved.
   function scatter(points, first, second, limit) {
     const solved = points.flatMap(point => [point.x, point.y]).filter(time => time != null);
-    const domain = logDomain([...solved, limit]);
+    const domain = timeDomain(limit > 0 ? [...solved, limit] : solved);
     const side = SCATTER_SIDE, column = 34, titleWidth = 280;
     const place = (field, range) => `datum.${field} === null ? ${range} : scale('${field}', datum.${field})`;
     const values = points.map(point => ({
@@ -241,8 +250,8 @@ const charts = (() => {
     return {
       usermeta: {mostWidth: side + 90}, height: side,
       data: [{name: "points", values}, {name: "ends", values: domain.map(end => ({end}))}],
-      scales: [{name: "x", type: "log", domain, range: besideColumn(column)},
-               {name: "y", type: "log", domain, range: [{signal: "height"}, column]}],
+      scales: [{name: "x", type: "log", domain, range: besideColumn(column), clamp: true},
+               {name: "y", type: "log", domain, range: [{signal: "height"}, column], clamp: true}],
       axes: [logAxis("x", "bottom", domain, lines(first + ", ms", titleWidth)),
              logAxis("y", "left", domain, lines(second + ", ms", titleWidth))],
       marks: [
@@ -271,7 +280,7 @@ const charts = (() => {
       const y = places.indexOf(one.contestant);
       values.push({...one, y, kind, shift, colour: theme.colour(one.contestant),
                    tip: `${names[y]}, ${kind}\nmedian ${shortNumber(one.median)}, quartiles ` +
-                        `${shortNumber(one.lower)} to ${shortNumber(one.upper)}\n${one.problems} problems`});
+                        `${shortNumber(one.lower)} to ${shortNumber(one.upper)}\n${problems(one.problems)}`});
     });
     collect(raw, "raw", -0.22);
     collect(simplified, "simplified", 0.22);
@@ -326,7 +335,7 @@ const charts = (() => {
   }
 
   return {
-    logDomain, textWidth, lines, success, times, curves, scatter, quality, phases, PHASES,
+    logDomain, textWidth, lines, problems, success, times, curves, scatter, quality, phases, PHASES,
     // Heights of figures without their axes, px.
     rowsHeight, CURVES_HEIGHT, SCATTER_SIDE,
   };

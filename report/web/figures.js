@@ -1,8 +1,9 @@
 "use strict";
 const curvesHeight = () => charts.CURVES_HEIGHT;
 // The kinds of figures that there are for each set: of what values they are made, [{contestant, ...}], and how, if they are to be
-// `width` px wide; how high they are of contestants with these names, without axes, px; of how many problems they are, where that
-// need not be all. `names` and `places` are those of the values' contestants; open(problem) is what a point of a run leads to.
+// `width` px wide; how high they are of contestants with these names, without axes, px; of how many problems the values are, where
+// these are not all that their contestant tried. `names` and `places` are those of the values' contestants; open(problem) is what a
+// point of a run leads to.
 const figureKinds = {
   success: {
     title: "Success", height: charts.rowsHeight,
@@ -16,7 +17,7 @@ const figureKinds = {
   },
   survival: {
     title: "Share solved by a time", height: curvesHeight,
-    list: set => set.survival,
+    list: set => set.survival.filter(value => endOf(value) > 0),
     make: (width, names, places, values) => {
       const list = values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.time, end: endOf(value)}));
       const last = Math.max(...list.map(curve => curve.end));
@@ -28,7 +29,7 @@ const figureKinds = {
   },
   profile: {
     title: "Performance profile", height: curvesHeight,
-    list: set => set.profile, problems: set => set.profile_problems,
+    list: set => (set.profile_problems > 0 ? set.profile : []), problems: set => [set.profile_problems],
     make: (width, names, places, values) => {
       const last = charts.logDomain([1, ...values.flatMap(value => value.ratio.slice(-1))])[1];
       return charts.curves(values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.ratio})),
@@ -47,7 +48,7 @@ const figureKinds = {
   },
   phases: {
     title: "Where the time goes", height: charts.rowsHeight,
-    list: set => set.phases,
+    list: set => set.phases, problems: set => set.phases.map(value => value.problems),
     make: (width, names, places, values) => charts.phases(width, names, values),
   },
 };
@@ -76,6 +77,25 @@ function nameIn(data, sets, place) {
   return name + (trained.length === tried.length ? " (trained)" : ` (trained on ${trained.map(set => set.name).join(", ")})`);
 }
 const namesOf = (data, set, places) => places.map(place => nameIn(data, [set], place));
+
+// Over how many of a set's problems a figure is, in words; `numbers`: of them, of each value, or else those that the contestants at
+// `places` tried.
+function problemsTold(data, set, places, numbers) {
+  const ofSets = set.all ? data.sets.filter(one => !one.all) : [set];
+  const sum = count => ofSets.reduce((total, one) => total + count(one.problem_times), 0);
+  const all = sum(times => new Set(times.flatMap(one => one.problem)).size);
+  const shown = numbers || places.map(place =>
+    sum(times => times.filter(one => one.contestant === place).reduce((total, one) => total + one.problem.length, 0)));
+  const least = Math.min(...shown), most = Math.max(...shown);
+  if (least === all) return charts.problems(all);
+  return `${least === most ? least : `${least} to ${most}`} of ${charts.problems(all)}`;
+}
+
+// Of each value of a measure on a set the number of its problems, by the measure's place in data.measures.
+const qualityProblems = (set, kind) => {
+  const {raw, simplified} = set.quality[kind];
+  return raw.concat(simplified).map(one => one.problems);
+};
 
 // The figure of a measure on a set, by the measure's place in data.measures.
 function qualityFigure(width, data, set, kind) {

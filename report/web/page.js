@@ -82,14 +82,15 @@ const report = (() => {
 
   // A figure of a kind for each set of which there is anything.
   function figuresOfSets(kind) {
-    const {list, make, title, height} = figureKinds[kind];
+    const {list, make, title, height, problems} = figureKinds[kind];
     const grid = element("div", {class: "grid"});
     for (const set of data.sets) {
       const values = list(set);
       if (!values || values.length === 0) continue;
       const places = values.map(value => value.contestant);
       const names = namesOf(data, set, places);
-      grid.append(figure(set.name, `${title}, ${set.name}`, height(names), width =>
+      const told = problems ? `${set.name}: ${problemsTold(data, set, places, problems(set))}` : set.name;
+      grid.append(figure(told, `${title}, ${set.name}`, height(names), width =>
         make(width, names, places, values, problem => showProblem(sets.indexOf(set), problem))));
     }
     return grid;
@@ -181,7 +182,7 @@ const report = (() => {
     const made = section("times", "Planning time",
       note("Every run is a point: the time to its first confirmed path, failed attempts before it included. A run without one is a " +
            "cross in the column on the right, with their number, whenever it ended. Diamond: median over the solved " +
-           "problems, with its 95 % interval. A point opens its problem."),
+           "problems, with its 95 % interval. A time of 0 stands at the left end. A point opens its problem."),
       figuresOfSets("times"),
       tableBlock("times", true),
       ...(tables.directions ? [tableBlock("directions", false)] : []),
@@ -223,8 +224,8 @@ const report = (() => {
     function update() {
       // The table holds each pair once, the higher rank first.
       if (first > second) [first, second] = [second, first];
-      const row = tables.pairs.rows.filter(row => row[0] === data.sets[set].name && row[1] === plainNames[first] &&
-                                                  row[2] === plainNames[second]);
+      const row = (tables.pairs ? tables.pairs.rows : []).filter(row =>
+        row[0] === data.sets[set].name && row[1] === plainNames[first] && row[2] === plainNames[second]);
       const choices = namesOf(data, data.sets[set], [...names.keys()]);
       figure.replaceChildren(
         element("div", {class: "controls"},
@@ -245,12 +246,12 @@ const report = (() => {
            "of their trials. Problems at which a time is 0 are left out."),
       ...limitsNote());
     const grid = figuresOfSets("profile");
-    made.append(legend(() => grid), grid);
+    made.append(...(grid.hasChildNodes() ? [legend(() => grid), grid] : [note("There is none of which all have a time.")]));
   }
 
   function quality() {
     const made = section("quality", "Path quality");
-    const kinds = data.measures.map((measure, i) => i).filter(i => sets.some(set => set.quality[i].raw.length > 0));
+    const kinds = data.measures.map((measure, i) => i).filter(i => sets.some(set => qualityProblems(set, i).length > 0));
     if (kinds.length === 0) {
       made.append(note("No path was measured."));
       return;
@@ -260,7 +261,7 @@ const report = (() => {
     const meaning = note("");
     const shown = [];
     for (const set of sets) {
-      if (set.quality.every(one => one.raw.length + one.simplified.length === 0)) continue;
+      if (kinds.every(i => qualityProblems(set, i).length === 0)) continue;
       const chart = element("div");
       grid.append(element("figure", {}, element("h3", {}, set.name), chart));
       shown.push(pictures.add(chart, "Path quality, " + set.name, charts.rowsHeight(names),

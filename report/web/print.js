@@ -10,17 +10,13 @@ const AXIS = 60, SYMBOL = 30;  // what an axis of shares takes on the left, and 
 requireModule("vega-scenegraph").textMetrics.width = (item, text) => charts.textWidth(String(text ?? ""), item.fontSize);
 
 // Away from the page a figure tells itself what it shows: of which set, how many problems, under which limit, measured on what.
-// `numShown`: over how many of the problems it is.
-function titled(spec, title, set, numShown) {
-  const ofSets = set.all ? data.sets.filter(one => !one.all) : [set];
-  const numProblems = ofSets.reduce((sum, one) => sum + new Set(one.problem_times.flatMap(times => times.problem)).size, 0);
+// `problems`: over how many it is, in words.
+function titled(spec, title, set, problems) {
   const limits = set.survival.map(one => one.limit).filter(limit => limit > 0).map(limit => limit / 1000);
   const least = Math.min(...limits), most = Math.max(...limits);
   const sessions = data.tables.find(table => table.name === "sessions");
   const processors = sessions ? sessions.rows.filter(row => row[0] === "processor").flatMap(row => row.slice(1)) : [];
-  const shown = numShown === undefined || numShown === numProblems ? "" : `${numShown} of `;
-  const facts = [`${shown}${numProblems} problem${numProblems === 1 ? "" : "s"}`,
-                 limits.length === 0 ? "" : `time limit ${least === most ? least : `${least} to ${most}`} s`, ...new Set(processors)];
+  const facts = [problems, limits.length === 0 ? "" : `time limit ${least === most ? least : `${least} to ${most}`} s`, ...new Set(processors)];
   // The title is bold, and wider than its size tells.
   const inLines = (text, fontSize) => charts.lines(text, (WIDTH - 20) * 12 / fontSize);
   return {...spec, title: {
@@ -76,11 +72,13 @@ for (const set of data.sets) {
     const places = values.map(value => value.contestant);
     const spec = make(WIDTH, namesOf(data, set, places), places, values, () => {});
     const figure = withLegend(kind, set, spec, namesOf(data, set, [...data.contestants.keys()]));
-    written.push(write(`${kind}-${own}`, titled(figure, title, set, problems && problems(set))));
+    written.push(write(`${kind}-${own}`, titled(figure, title, set, problemsTold(data, set, places, problems && problems(set)))));
   }
   data.measures.forEach((measure, kind) => {
-    if (set.all || set.quality[kind].raw.length === 0) return;
-    written.push(write(`${measure.name}-${own}`, titled(qualityFigure(WIDTH, data, set, kind), measure.name.replace(/_/g, " "), set)));
+    const numbers = set.all ? [] : qualityProblems(set, kind);
+    if (numbers.length === 0) return;
+    written.push(write(`${measure.name}-${own}`, titled(qualityFigure(WIDTH, data, set, kind), measure.name.replace(/_/g, " "), set,
+                                                        problemsTold(data, set, [], numbers))));
   });
 }
 Promise.all(written).catch(error => {

@@ -36,8 +36,8 @@ class CurvesDrawnTest : public testing::Test {
     return ComparedSessions(std::move(sessions));
   }
 
-  /// Points of the curves of a kind on the first set, each with the place of its contestant.
-  Json Draw(const ComparedSessions& compared, const std::string& kind) {
+  /// The figure of a kind on the first set; null if there is nothing to draw.
+  Json Make(const ComparedSessions& compared, const std::string& kind) {
     folder_.Write("data.json", FigureData(compared, {}, {}).dump());
     std::string script =
         "const theme = {colour: place => place, dash: place => [place], property: name => name};\n";
@@ -47,14 +47,20 @@ class CurvesDrawnTest : public testing::Test {
         "const data = JSON.parse(require('fs').readFileSync(file, 'utf8')), set = data.sets[0];\n"
         "const {list, make} = figureKinds[kind], values = list(set);\n"
         "const places = values.map(value => value.contestant);\n"
-        "const figure = make(440, namesOf(data, set, places), places, values);\n"
-        "console.log(JSON.stringify(figure.data[0].values));\n";
+        "const figure = values.length > 0 && make(440, namesOf(data, set, places), places, "
+        "values);\n"
+        "console.log(JSON.stringify(figure || null));\n";
     folder_.Write("draw.js", script);
     ChildProcess node(
         {"node", (folder_ / "draw.js").string(), (folder_ / "data.json").string(), kind},
         folder_ / "node");
     EXPECT_EQ(node.Wait(), 0) << node.Errors();
     return Json::parse(node.Output());
+  }
+
+  /// Points of the curves of a kind on the first set, each with the place of its contestant.
+  Json Draw(const ComparedSessions& compared, const std::string& kind) {
+    return Make(compared, kind)["data"][0]["values"];
   }
 
   static std::vector<Json> Of(const Json& points, int place) {
@@ -103,6 +109,41 @@ TEST_F(CurvesDrawnTest, NothingSolvedUnderALimitThatIsAPowerOfTenIsACurveAllTheS
     EXPECT_EQ(points.front()["x"], 100);
     EXPECT_EQ(points.back()["x"], 1000 * limit_s);
   }
+}
+
+TEST_F(CurvesDrawnTest, TimesOfNothingStandBeforeAllOthers) {
+  const auto domain = [&](const std::vector<MadeRun>& runs) {
+    const Json scale = Make(Sessions({{10, runs}}), "times")["scales"][1];
+    EXPECT_EQ(scale["clamp"], true) << scale;
+    return scale["domain"];
+  };
+  const MadeRun nothing = {.contestant = "A", .time_s = 0};
+  const MadeRun other = {.contestant = "A", .problem = 2, .time_s = 0.2};
+  EXPECT_EQ(domain({other})[0], 100);
+  EXPECT_EQ(domain({nothing, other})[0], 10);
+  EXPECT_EQ(domain({nothing})[0], 1000) << "before the limit";
+}
+
+TEST_F(CurvesDrawnTest, ALimitThatIsNotKnownIsNotDrawn) {
+  const auto draws_limit = [&](double limit_s) {
+    const Json marks =
+        Make(Sessions({{limit_s, {{.contestant = "A", .status = PlanStatus::kTimedOut}}}}),
+             "times")["marks"];
+    return std::any_of(marks.begin(), marks.end(),
+                       [](const Json& mark) { return mark.value("name", "") == "limit"; });
+  };
+  EXPECT_TRUE(draws_limit(10));
+  EXPECT_FALSE(draws_limit(0));
+  // Nor is a share by a time, where nothing is known by any.
+  const ComparedSessions failed =
+      Sessions({{0, {{.contestant = "A", .status = PlanStatus::kTimedOut}}}});
+  EXPECT_TRUE(Make(failed, "survival").is_null());
+}
+
+TEST_F(CurvesDrawnTest, AProfileOverNoProblemIsNone) {
+  const std::vector<MadeRun> one = {{.contestant = "A"}};
+  const std::vector<MadeRun> other = {{.contestant = "B", .problem = 2}};
+  EXPECT_TRUE(Make(Sessions({{10, one}, {10, other}}), "profile").is_null());
 }
 
 TEST_F(CurvesDrawnTest, ImprovementsEndAtTheirOwnLimit) {

@@ -360,6 +360,13 @@ TEST_F(PageTest, IsRightForNoRunAndForOne) {
   EXPECT_LE(one["success_width"], 1176) << "cut off in a window of 1300 px";
 }
 
+TEST_F(PageTest, IsWholeWhereNoProblemIsInCommon) {
+  const nlohmann::json found = Open({{.contestant = "A"}, {.contestant = "B", .problem = 2}});
+  // Success, times, survival, the pair without a point, path quality and phases; no profile.
+  EXPECT_EQ(found["charts"], 6);
+  EXPECT_EQ(found["attempts"], 1);
+}
+
 TEST_F(PageTest, HoldsThirtyContestants) {
   std::vector<MadeRun> runs;
   for (int c = 1; c <= 30; ++c) {

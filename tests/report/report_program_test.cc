@@ -291,27 +291,53 @@ TEST_F(ReportProgramTest, FiguresAreWrittenForEverySet) {
   EXPECT_EQ(count, 2u) << crosses;
 }
 
-TEST_F(ReportProgramTest, AProfileTellsOverHowManyOfTheProblemsItIs) {
+TEST_F(ReportProgramTest, FiguresTellOverHowManyOfTheProblemsTheyAre) {
   if (std::system("command -v node >/dev/null") != 0) {
     GTEST_SKIP() << "no node here: apt-get install nodejs";
   }
-  WriteSession(folder_ / "example", {{.contestant = "A"},
-                                     {.contestant = "A", .problem = 2},
-                                     {.contestant = "A", .problem = 3},
-                                     {.contestant = "A", .set = "other"},
-                                     {.contestant = "B"},
-                                     {.contestant = "B", .problem = 2},
-                                     {.contestant = "B", .set = "other"}});
+  WriteSession(folder_ / "example",
+               {{.contestant = "A"},
+                {.contestant = "A", .problem = 2},
+                {.contestant = "A", .problem = 3},
+                {.contestant = "A", .set = "other"},
+                {.contestant = "A", .set = "other", .problem = 2, .status = PlanStatus::kTimedOut},
+                {.contestant = "B"},
+                {.contestant = "B", .problem = 2},
+                {.contestant = "B", .set = "other"},
+                {.contestant = "B", .set = "other", .problem = 2},
+                {.contestant = "A", .set = "single"},
+                {.contestant = "B", .set = "single"}});
   ASSERT_EQ(Run({Path("example"), "--out", Path("page.html"), "--figures", Path("figures")}),
             kExitOk)
       << errors_;
   const std::map<std::string, std::string> told = {
-      {"profile-shelf", ">2 of 3 problems, "},    {"survival-shelf", ">3 problems, "},
-      {"profile-other", ">1 problem, "},          {"survival-other", ">1 problem, "},
-      {"profile-all_sets", ">3 of 4 problems, "}, {"survival-all_sets", ">4 problems, "}};
+      {"profile-shelf", ">2 of 3 problems, "},
+      {"survival-shelf", ">2 to 3 of 3 problems, "},
+      {"path_length-shelf", ">2 to 3 of 3 problems, "},
+      {"profile-other", ">2 problems, "},
+      {"times-other", ">2 problems, "},
+      {"path_length-other", ">1 to 2 of 2 problems, "},
+      {"phases-other", ">1 to 2 of 2 problems, "},
+      {"path_length-single", ">1 problem, "},
+      {"phases-single", ">1 problem, "},
+      {"profile-all_sets", ">5 of 6 problems, "},
+      {"survival-all_sets", ">5 to 6 of 6 problems, "}};
   for (const auto& [figure, problems] : told) {
     EXPECT_THAT(ReadText(folder_ / "figures" / (figure + ".svg")), HasSubstr(problems)) << figure;
   }
+}
+
+TEST_F(ReportProgramTest, MeasuresOfSimplifiedPathsAloneAreDrawnToo) {
+  if (std::system("command -v node >/dev/null") != 0) {
+    GTEST_SKIP() << "no node here: apt-get install nodejs";
+  }
+  folder_.Write("other.csv",
+                "problem_set,problem_index,solved,time_s,path_length_simplified\nshelf,1,1,4,2\n");
+  ASSERT_EQ(Run({"--import", Path("other.csv"), "--as", "A", "--out", Path("page.html"),
+                 "--figures", Path("figures")}),
+            kExitOk)
+      << errors_;
+  EXPECT_THAT(ReadText(folder_ / "figures" / "path_length-shelf.svg"), HasSubstr(">1 problem<"));
 }
 
 TEST_F(ReportProgramTest, FiguresAndTablesMarkWhoHasLearned) {

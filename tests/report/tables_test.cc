@@ -359,6 +359,7 @@ TEST_F(ReportTest, TimesOfNothingAreCountedBesideTheRatio) {
   EXPECT_THAT(PairTable(pairs).note, testing::HasSubstr("since a time is 0: 1 problem that both"));
   EXPECT_THAT(Answer(compared, pairs).at(1), testing::HasSubstr("1 with a time of 0 left out"));
   EXPECT_EQ(PairTable(pairs_).note.find("time is 0"), std::string::npos);
+  EXPECT_EQ(FigureData(compared, {}, {})["sets"][0]["problem_times"][0]["time"], (Json{0, 1000}));
 }
 
 TEST_F(ReportTest, ARatioTellsOnHowManyProblemsItRests) {
@@ -419,7 +420,9 @@ TEST_F(ReportTest, PhasesThatAreNotToldAreNone) {
                           : (Row{FormatNumber(125), FormatNumber(500), FormatNumber(250),
                                  FormatNumber(125), FormatNumber(250)}));
   }
-  EXPECT_EQ(FigureData(compared, {}, {})["sets"][0]["phases"].size(), 1u);
+  const Json phases = FigureData(compared, {}, {})["sets"][0]["phases"];
+  ASSERT_EQ(phases.size(), 1u);
+  EXPECT_EQ(phases[0]["problems"], 1);
 }
 
 TEST_F(ReportTest, MeshVerdictsNameTheCommonestContact) {
