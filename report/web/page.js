@@ -238,7 +238,7 @@ const report = (() => {
     update();
     made.append(figure, element("figure", {class: "beside"}, chart, element("figcaption", {},
         "A point is a problem, at the medians of its trials; below the diagonal the second is faster. In the strips " +
-        "on the right and at the top one or both did not solve it in the median. A point opens its problem.")), ...limitsNote());
+        "on the right and at the top one or both did not solve it in the median. A time of 0 stands where its axis begins. A point opens its problem.")), ...limitsNote());
     made.append(tableBlock("pairs", false));
     made.append(element("h3", {}, "Performance profiles"),
       note("Share of the problems on which a contestant is within a ratio of the fastest of all (Dolan and Moré 2002), over the " +
