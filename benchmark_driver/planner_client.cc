@@ -1,14 +1,12 @@
 #include "benchmark_driver/planner_client.h"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <utility>
 
-#include "messaging/node_announcer.h"
+#include "benchmark_driver/local_process.h"
 #include "messaging/session_conditions.h"
 
 namespace planbench {
@@ -19,12 +17,6 @@ constexpr std::chrono::milliseconds kPoll{50};
 constexpr std::chrono::milliseconds kAbsencePoll{100};
 /// How long one that was told to end may be away before it is said what is waited for.
 constexpr std::chrono::milliseconds kShortAbsence{5000};
-
-/// Whether the process runs on this machine, as far as its id can be seen from here.
-bool IsSeenHere(const NodeStatusMessage& process) {
-  return process.host == HostName() && process.pid > 0 &&
-         (kill(static_cast<pid_t>(process.pid), 0) == 0 || errno != ESRCH);
-}
 
 }  // namespace
 
@@ -120,7 +112,7 @@ std::optional<RequestExchange::Event> PlannerClient::NextMessage(TimePoint until
 }
 
 bool PlannerClient::HasEnded(const NodeStatusMessage& process) const {
-  return process.instance == seen_here_.instance && !IsSeenHere(process);
+  return process.instance == seen_here_.instance && !IsRunning(process.pid);
 }
 
 bool PlannerClient::IsOver(const NodeStatusMessage& process) const {
@@ -128,9 +120,15 @@ bool PlannerClient::IsOver(const NodeStatusMessage& process) const {
 }
 
 bool PlannerClient::IsCold() const {
-  if (!WhyGivenUp().empty()) return false;
-  const auto node = Live();
-  return node && node->status.instance != warm_ && ReasonNotToAsk(node->status).empty();
+  const auto process = ToBeAsked();
+  return process && process->instance != warm_;
+}
+
+std::optional<NodeStatusMessage> PlannerClient::ToBeAsked() const {
+  if (!WhyGivenUp().empty()) return std::nullopt;
+  auto node = Live();
+  if (!node || !ReasonNotToAsk(node->status).empty()) return std::nullopt;
+  return std::move(node->status);
 }
 
 bool PlannerClient::ExpectAnother() {
@@ -202,7 +200,7 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
   const std::string reason = process ? ReasonNotToAsk(process->status) : WhyGivenUp();
   if (interrupted() || (!process && reason.empty())) return {.outcome = Outcome::kInterrupted};
   if (!reason.empty()) return {.outcome = Outcome::kNoAnswer, .message = reason};
-  seen_here_ = IsSeenHere(process->status) ? process->status : NodeStatusMessage();
+  seen_here_ = IsSeenHere(*process) ? process->status : NodeStatusMessage();
   const auto look_around = [&]() -> RequestExchange::Event {
     if (interrupted()) return RequestExchange::Interruption{};
     // Before it is asked again: what it died of would reach its successor.

@@ -45,6 +45,8 @@ class PlannerClient {
   /// Waits until the planner is live, or given up, or the caller interrupts. Of one that is not
   /// live it says once for how long.
   void AwaitPlanner(const std::function<bool()>& interrupted) { WaitUntilLive(interrupted); }
+  /// The process that is live, if it is to be asked.
+  std::optional<NodeStatusMessage> ToBeAsked() const;
   /// Whether the process that is live is to be asked and has given this client no result yet, and
   /// is not known to give none, however long it is waited for.
   bool IsCold() const;

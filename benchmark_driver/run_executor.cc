@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "benchmark_driver/local_process.h"
 #include "benchmark_driver/possible_times.h"
 #include "common/random_id.h"
 #include "common/utime.h"
-#include "messaging/node_announcer.h"
 #include "planning/path_measures.h"
 #include "planning/told_edges.h"
 #include "results/outcomes.h"
@@ -110,9 +110,9 @@ RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions con
 std::vector<pid_t> RunExecutor::PidsOf(const std::vector<PlannerClient*>& planners) const {
   std::vector<pid_t> pids;
   for (const PlannerClient* planner : planners) {
-    const auto node = registry_->Find(planner->planner(), NodeKind::kPlanner);
-    if (!node || node->host != HostName()) return {};
-    pids.push_back(static_cast<pid_t>(node->pid));
+    const auto node = registry_->FindNode(planner->planner(), NodeKind::kPlanner);
+    if (!node || !IsSeenHere(*node)) return {};
+    pids.push_back(static_cast<pid_t>(node->status.pid));
   }
   return pids;
 }

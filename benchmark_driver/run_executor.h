@@ -70,7 +70,7 @@ class RunExecutor {
   /// would have found free to its own.
   bool AreCheckedAlike(const PlanRequest& first, const std::string& first_planner,
                        const PlanRequest& second, const std::string& second_planner) const;
-  /// Of planners on this machine; none if one is elsewhere.
+  /// Of planners on this machine; none if one is not seen here.
   std::vector<pid_t> PidsOf(const std::vector<PlannerClient*>& planners) const;
   const Contestant& ContestantOf(const ScheduledRun& run) const;
   PlanRequest RequestOf(const ScheduledRun& run, const ProblemMessage& problem) const;

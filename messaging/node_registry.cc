@@ -118,8 +118,15 @@ std::vector<NodeRegistry::Node> NodeRegistry::LiveNodes(NodeKind kind) const {
 }
 
 std::optional<NodeStatusMessage> NodeRegistry::Find(const std::string& name, NodeKind kind) const {
-  for (NodeStatusMessage& status : Live(kind)) {
-    if (status.name == name) return std::move(status);
+  auto node = FindNode(name, kind);
+  if (!node) return std::nullopt;
+  return std::move(node->status);
+}
+
+std::optional<NodeRegistry::Node> NodeRegistry::FindNode(const std::string& name,
+                                                         NodeKind kind) const {
+  for (Node& node : LiveNodes(kind)) {
+    if (node.status.name == name) return std::move(node);
   }
   return std::nullopt;
 }

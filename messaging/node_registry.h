@@ -42,6 +42,7 @@ class NodeRegistry {
 
   /// The live node of that name and kind.
   std::optional<NodeStatusMessage> Find(const std::string& name, NodeKind kind) const;
+  std::optional<Node> FindNode(const std::string& name, NodeKind kind) const;
   std::vector<NodeStatusMessage> Live() const;
   std::vector<NodeStatusMessage> Live(NodeKind kind) const;
   std::vector<Node> LiveNodes(NodeKind kind) const;

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <future>
 
 #include "tests/benchmark_driver/fake_nodes.h"
+#include "tests/benchmark_driver/idle_process.h"
 #include "tests/support/private_bus.h"
 #include "tests/support/wait_until.h"
 
@@ -49,21 +48,6 @@ class PlannerClientTest : public testing::Test {
   PlannerClient client_{&bus_, &registry_, "arm"};
   std::atomic<bool> interrupted_ = false;
 };
-
-/// One that does nothing.
-pid_t StartProcess() {
-  const pid_t pid = fork();
-  if (pid == 0) {
-    pause();
-    _exit(0);
-  }
-  return pid;
-}
-
-void EndProcess(pid_t pid) {
-  kill(pid, SIGKILL);
-  waitpid(pid, nullptr, 0);
-}
 
 /// The planner and somebody else have connections of their own.
 class PlannerClientOnASharedBusTest : public PlannerClientTest {
@@ -235,6 +219,16 @@ TEST_F(PlannerClientOnASharedBusTest, NoAnswerTellsWhatWasRefused) {
   EXPECT_THAT(answer.message,
               testing::AllOf(HasSubstr("but it has no path; refused: what came on PLAN_ACK_ARM "),
                              HasSubstr(bus_.contradictions().entries().at(0).sender)));
+}
+
+TEST_F(PlannerClientOnASharedBusTest, TheEndOfAProcessThatOnlyHasItsIdIsNoConcern) {
+  const pid_t pid = StartProcess();
+  FakePlanner planner(&planner_bus_);  // on a host of the same name, say
+  planner.status.pid = pid;
+  Reannounce(&registry_, &planner);
+  EXPECT_EQ(Solve("a").outcome, PlannerClient::Outcome::kResult);
+  EndProcess(pid);
+  EXPECT_EQ(Solve("b").outcome, PlannerClient::Outcome::kResult);
 }
 
 TEST_F(PlannerClientTest, PlannerThatDiesGivesNoAnswer) {
