@@ -155,6 +155,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
       [&] {
         if (stop()) throw std::runtime_error("interrupted");
       });
+  announcer.AwaitPlace();
   if (new_folder) new_folder->Keep();
 
   const bool agree = replay.Run(stop, [](const std::string& line) {

@@ -221,6 +221,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   }
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
   driver.Discover(options.launch, watch, std::move(server), {}, std::move(supervised));
+  announcer.AwaitPlace();
   const std::vector<Attempt> reference_attempts =
       AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();

@@ -1,9 +1,11 @@
 #include "messaging/node_announcer.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <climits>
+#include <cmath>
 #include <tuple>
 
 #include "common/error.h"
@@ -15,12 +17,29 @@
 namespace planbench {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::chrono::milliseconds kPeriod{500};
+/// Times of day that are further apart are of different clocks, us. Less than kNewcomer, so that
+/// whoever is established when a newcomer comes is older by either measure.
+constexpr double kClocksAgree = 2e6;
+/// How long a rival whose clock tells another time has to be heard: in a recording every other
+/// process, which the same sender would announce, is heard meanwhile.
+constexpr std::chrono::milliseconds kTrial = kPeriod + std::chrono::milliseconds(100);
+/// By how much his age may then differ from what has passed here, us.
+constexpr double kDelay = 3e5;
 
 /// Whether only one of them can be on a bus.
 bool AreRivals(const NodeStatusMessage& a, const NodeStatusMessage& b) {
   if (a.kind == b.kind && a.kind == NodeKind::kLogger) return false;
   return a.name == b.name || (a.kind == b.kind && a.kind == NodeKind::kSceneServer);
+}
+
+/// Where one of two rivals can be beside the other.
+std::string AnotherPlace(const NodeStatusMessage& node) {
+  const bool is_one_of_a_kind =
+      node.kind == NodeKind::kDriver || node.kind == NodeKind::kSceneServer;
+  return std::string(is_one_of_a_kind ? "" : "another --name, or ") + "another port with --lcm-url";
 }
 
 /// How one that has to go is told so.
@@ -32,9 +51,16 @@ std::string Displaced(const NodeStatusMessage& self, const NodeStatusMessage& ol
   }
   return "another session is on this LCM port: the " + std::string(EnumName(older.kind)) + " '" +
          older.name + "' is live already (host " + older.host + ", pid " +
-         std::to_string(older.pid) + "); choose " +
-         (self.kind == NodeKind::kDriver ? "" : "another --name, or ") +
-         "another port with --lcm-url";
+         std::to_string(older.pid) + "); choose " + AnotherPlace(self);
+}
+
+/// What one that stays tells of a rival, or of a recording of one.
+std::string Claims(const NodeStatusMessage& self, const NodeStatusMessage& other) {
+  return fmt::format(
+      "claims to be the {} '{}' (host {}, pid {}), which this process is{}; unless it ends by "
+      "itself, end it, and choose {} for it, as for a recording that is played back",
+      EnumName(other.kind), other.name, other.host, other.pid,
+      other.name == self.name ? "" : fmt::format(", as '{}'", self.name), AnotherPlace(self));
 }
 
 }  // namespace
@@ -67,7 +93,8 @@ NodeAnnouncer::NodeAnnouncer(Bus* bus, std::function<NodeStatusMessage()> status
       status_(std::move(status)),
       also_(std::move(also)),
       self_(status_()),
-      established_(std::chrono::steady_clock::now() + newcomer),
+      begun_utime_(NowUtime()),
+      established_(begun_ + newcomer),
       discover_(bus->Subscribe<DiscoverMessage>(channel::kDiscover,
                                                 [this](const DiscoverMessage&) {
                                                   Announce();
@@ -103,38 +130,70 @@ NodeAnnouncer::~NodeAnnouncer() {
 
 void NodeAnnouncer::Announce() {
   NodeStatusMessage status = status_();
-  status.utime = NowUtime();
+  status.utime = Utime(Clock::now());
   bus_->Publish(channel::kNodeStatus, status);
 }
 
+std::int64_t NodeAnnouncer::Utime(TimePoint time) const {
+  return begun_utime_ +
+         std::chrono::duration_cast<std::chrono::microseconds>(time - begun_).count();
+}
+
 void NodeAnnouncer::OnStatus(const NodeStatusMessage& other, const PacketSender& sender) {
+  const TimePoint now = Clock::now();
+  const bool is_established = now >= established_;
+  if (!is_established) {
+    std::string& instance = instances_.try_emplace(sender, other.instance).first->second;
+    if (instance != other.instance) instance.clear();
+  }
   if (!AreRivals(other, self_) || other.instance == self_.instance) return;
-  const auto age_key = [](const NodeStatusMessage& s) {
-    return std::tie(s.start_utime, s.instance);
-  };
-  // A recording played back on this bus shows processes of the past: they do not displace anybody.
-  constexpr std::int64_t kStaleAfterUs = 10'000'000;
-  const bool is_established = std::chrono::steady_clock::now() >= established_;
-  if (is_established || other.utime < NowUtime() - kStaleAfterUs) {
-    bus_->contradictions().Note(sender, channel::kNodeStatus,
-                                "claims to be the " + std::string(EnumName(other.kind)) + " '" +
-                                    other.name + "', which this process is");
+  if (is_established) {
+    bus_->contradictions().Note(sender, channel::kNodeStatus, Claims(self_, other));
     return;
   }
-  if (age_key(self_) < age_key(other)) return;  // it will go
-  if (!rival_ || rival_->instance != other.instance) {
-    rival_ = other;
+  // In double, which whatever a stranger tells does not overflow.
+  const auto utime = static_cast<double>(Utime(now)), others = static_cast<double>(other.utime);
+  const bool clocks_agree = std::abs(utime - others) <= kClocksAgree;
+  const bool is_older = clocks_agree ? std::tie(other.start_utime, other.instance) <
+                                           std::tie(self_.start_utime, self_.instance)
+                                     : others - static_cast<double>(other.start_utime) >
+                                           utime - static_cast<double>(self_.start_utime);
+  if (!is_older) return;  // it will go
+  std::unique_lock lock(mutex_);
+  if (!rival_ || rival_->status.instance != other.instance) {
+    rival_ = {other, now};
+    lock.unlock();
     bus_->Publish(channel::kDiscover, DiscoverMessage{self_.name});
     return;
   }
-  if (other.utime <= rival_->utime) return;
-  const std::scoped_lock lock(mutex_);
+  if (!IsAnswer(other, sender, now, clocks_agree)) return;
   displaced_by_ = Displaced(self_, other);
+  changed_.notify_all();
+}
+
+bool NodeAnnouncer::IsAnswer(const NodeStatusMessage& status, const PacketSender& sender,
+                             TimePoint now, bool clocks_agree) {
+  if (clocks_agree) return status.utime > rival_->status.utime;
+  const double passed = std::chrono::duration<double, std::micro>(now - rival_->heard).count();
+  const double aged = static_cast<double>(status.utime) - static_cast<double>(rival_->status.utime);
+  if (std::abs(aged - passed) > kDelay) {
+    rival_ = {status, now};
+    return false;
+  }
+  return now - rival_->heard >= kTrial && !instances_.at(sender).empty();
 }
 
 void NodeAnnouncer::ThrowIfDisplaced() const {
   const std::scoped_lock lock(mutex_);
   if (!displaced_by_.empty()) throw InputError(displaced_by_);
+}
+
+void NodeAnnouncer::AwaitPlace() const {
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait_until(lock, established_, [this] { return !rival_ || !displaced_by_.empty(); });
+  }
+  ThrowIfDisplaced();
 }
 
 }  // namespace planbench

@@ -1,5 +1,6 @@
 #include "messaging/node_announcer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -9,9 +10,13 @@
 #include "messaging/channels.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/message_collector.h"
+#include "tests/support/private_bus.h"
 
 namespace planbench {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
 
 constexpr std::int64_t kMinuteUs = 60'000'000;
 
@@ -156,24 +161,96 @@ TEST_F(NodeAnnouncerTest, OneStatusThatNothingFollowsDisplacesNobody) {
   EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
 }
 
-TEST_F(NodeAnnouncerTest, AReplayDisplacesNobody) {
-  const NodeAnnouncer announcer(&bus_, [&] { return self_; });
-  NodeStatusMessage recorded = Other(kMinuteUs);
-  recorded.utime = NowUtime() - kMinuteUs;
-  HearLiving(recorded);
-  EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
-  EXPECT_EQ(bus_.contradictions().count(), 2);
-  recorded.utime = NowUtime();
-  HearLiving(recorded);
-  EXPECT_THROW(announcer.ThrowIfDisplaced(), InputError);
-}
-
 TEST_F(NodeAnnouncerTest, WhoIsAtWorkIsDisplacedByNobody) {
   const NodeAnnouncer announcer(
       &bus_, [&] { return self_; }, nullptr, std::chrono::milliseconds(0));
   HearLiving(Other(kMinuteUs));
   EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
   EXPECT_EQ(bus_.contradictions().count(), 2);
+  EXPECT_THAT(bus_.contradictions().entries().at(0).what,
+              AllOf(HasSubstr("the planner 'ara'"), HasSubstr("--name"), HasSubstr("--lcm-url")));
+}
+
+TEST_F(NodeAnnouncerTest, WhoWaitsForItsPlaceDoesSoOnlyWhileARivalMayLive) {
+  const NodeAnnouncer announcer(
+      &bus_, [&] { return self_; }, nullptr, kTestPatience);
+  EXPECT_NO_THROW(announcer.AwaitPlace()) << "nobody has been heard";
+  HearLiving(Other(kMinuteUs));
+  EXPECT_THROW(announcer.AwaitPlace(), InputError);
+}
+
+/// Rivals whose clocks tell another time, on a bus where everybody has a sender of his own.
+class ClocksOfRivalsTest : public testing::Test {
+ protected:
+  ClocksOfRivalsTest() { bus_.Start(); }
+
+  /// Says that a process of that name announces itself, which has been up for longer than this one;
+  /// its clock is `ahead_us` ahead, and goes `speed` times as fast.
+  void Announce(const std::string& name, std::int64_t ahead_us, std::int64_t speed = 1) {
+    NodeStatusMessage other = self_;
+    other.name = other.instance = name;
+    other.utime = self_.start_utime + ahead_us + speed * (NowUtime() - self_.start_utime);
+    other.start_utime += ahead_us - kMinuteUs;
+    rivals_bus_.Publish(channel::kNodeStatus, other);
+  }
+  static bool IsDisplaced(const NodeAnnouncer& announcer) {
+    try {
+      announcer.ThrowIfDisplaced();
+      return false;
+    } catch (const InputError&) {
+      return true;
+    }
+  }
+
+  const std::string url_ = PrivateUdpUrl();
+  Bus bus_{url_}, rivals_bus_{url_};
+  const NodeStatusMessage self_ = MakeNodeStatus("ara", NodeKind::kPlanner);
+};
+
+TEST_F(ClocksOfRivalsTest, WhoHasBeenUpForLongerStays) {
+  for (const std::int64_t ahead_us : {-60 * kMinuteUs, -kMinuteUs / 10, 60 * kMinuteUs}) {
+    const NodeAnnouncer announcer(
+        &bus_, [&] { return self_; }, nullptr, kTestPatience);
+    EXPECT_TRUE(WaitUntil([&] {
+      Announce("ara", ahead_us);
+      return IsDisplaced(announcer);
+    })) << ahead_us;
+  }
+}
+
+TEST_F(ClocksOfRivalsTest, WhoHasBeenUpForLessGoesWhateverItsClock) {
+  const NodeAnnouncer announcer(
+      &bus_, [&] { return self_; }, nullptr, std::chrono::seconds(1));
+  EXPECT_TRUE(WaitUntil([&] {
+    NodeStatusMessage younger = self_;
+    younger.instance = "younger";
+    younger.utime = NowUtime() - 60 * kMinuteUs;
+    younger.start_utime = younger.utime - 1;
+    rivals_bus_.Publish(channel::kNodeStatus, younger);
+    return bus_.contradictions().count() > 0;  // this process is established
+  }));
+  EXPECT_FALSE(IsDisplaced(announcer));
+}
+
+TEST_F(ClocksOfRivalsTest, AReplayDisplacesNobody) {
+  const NodeAnnouncer announcer(
+      &bus_, [&] { return self_; }, nullptr, std::chrono::seconds(1));
+  EXPECT_TRUE(WaitUntil([&] {
+    Announce("ara", -60 * kMinuteUs);
+    Announce("rrtc", -60 * kMinuteUs);
+    return bus_.contradictions().count() > 0;  // this process is established
+  }));
+  EXPECT_FALSE(IsDisplaced(announcer));
+}
+
+TEST_F(ClocksOfRivalsTest, NorDoesOneOfASingleProcessAtAnotherSpeed) {
+  const NodeAnnouncer announcer(
+      &bus_, [&] { return self_; }, nullptr, std::chrono::seconds(1));
+  EXPECT_TRUE(WaitUntil([&] {
+    Announce("ara", -60 * kMinuteUs, 4);
+    return bus_.contradictions().count() > 0;  // this process is established
+  }));
+  EXPECT_FALSE(IsDisplaced(announcer));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "common/utime.h"
 #include "tests/messaging/stranger.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/message_collector.h"
@@ -559,12 +560,12 @@ TEST_F(PlannerNodeTest, EndsWhileWaitingForTheSceneWithoutAResult) {
 
 TEST_F(PlannerNodeTest, GivesWayToAnOlderProcessOfItsName) {
   NodeStatusMessage older = MakeNodeStatus("arm", NodeKind::kPlanner);
-  older.utime = older.start_utime;
   older.instance = "older";
   older.start_utime -= 1'000'000;
   PlannerNode node(&bus_, "arm",
                    std::make_unique<ScriptedPlanner>(
                        PlanarRobot(), [](SearchQuery& query) { return StraightLine(query); }));
+  older.utime = NowUtime();
   bus_.Publish(channel::kNodeStatus, older);
   ++older.utime;
   bus_.Publish(channel::kNodeStatus, older);

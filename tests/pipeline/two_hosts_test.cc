@@ -52,7 +52,11 @@ class TwoHosts : public PipelineTest {
   static std::vector<std::string> SceneServer() {
     return {Program("scene_server"), "--robot", RobotFolder(), "--problems", ProblemFolder()};
   }
-  static bool IsSanitized() { return !std::string(PLANBENCH_SANITIZED).empty(); }
+  /// In a process's environment: the time of day of a clock of its own.
+  static std::string AnotherTime() {
+    const bool is_sanitized = !std::string(PLANBENCH_SANITIZED).empty();
+    return std::string("LD_PRELOAD=") + (is_sanitized ? "" : PLANBENCH_ANOTHER_TIME);
+  }
 
   static constexpr std::array kHosts = {"office", "robot"};
 
@@ -68,11 +72,9 @@ TEST_F(TwoHosts, ASessionRunsOverBothAndMixesNoClocks) {
   // Steady clocks eleven days apart, the time of day one hour.
   const std::vector<std::string> another_clock = {"--time", "--fork", "--kill-child",
                                                   "--monotonic=1000000"};
-  const std::string another_time =
-      "LD_PRELOAD=" + std::string(IsSanitized() ? "" : PLANBENCH_ANOTHER_TIME);
   const auto session = folder() / "session";
   for (const std::string kind : {"ara", "rrtc"}) {
-    StartOn("robot", {"env", another_time, Program("planner_" + kind), "--robot", RobotFolder()},
+    StartOn("robot", {"env", AnotherTime(), Program("planner_" + kind), "--robot", RobotFolder()},
             another_clock);
   }
   StartOn("office", SceneServer());
@@ -98,6 +100,22 @@ TEST_F(TwoHosts, ASessionRunsOverBothAndMixesNoClocks) {
   EXPECT_EQ(hosts["ara"], "robot");
   EXPECT_EQ(hosts["rrtc"], "robot");
   EXPECT_EQ(hosts["scene_server"], "office");
+}
+
+TEST_F(TwoHosts, ASecondDriverIsRefusedWhateverItsClock) {
+  const std::vector<std::string> driver = {Program("benchmark_driver"), "--discovery-timeout", "60",
+                                           "--planners", "rrtc"};
+  std::vector<std::string> later = driver;
+  later.insert(later.begin(), {"env", AnotherTime()});
+  ChildProcess* first = StartOn("office", driver);
+  ASSERT_TRUE(WaitUntil([&] { return first->Errors().find("waiting for") != std::string::npos; }));
+  ChildProcess* second = StartOn("robot", later);
+  EXPECT_EQ(second->Wait(), 2);
+  EXPECT_NE(second->Errors().find("the driver 'driver' is live already (host office"),
+            std::string::npos)
+      << second->Errors();
+  first->Signal(SIGINT);
+  first->Wait();
 }
 
 TEST_F(TwoHosts, AnotherRobotOnOneOfThemIsRefused) {
