@@ -178,9 +178,13 @@ Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
       if (node.kind == NodeKind::kSceneServer) {
         std::ranges::move(ToldWarnings(kProblemWarning, node.settings),
                           std::back_inserter(problem_warnings_));
+        std::ranges::move(ToldWarnings(kPlannerWarning, node.settings),
+                          std::back_inserter(planner_warnings_));
       }
-      if (node.kind != NodeKind::kPlanner || planners_.contains(node.name)) continue;
-      earlier_planners_.insert_or_assign(node.name, node);
+      if (node.kind != NodeKind::kPlanner) continue;
+      const auto found = planners_.find(node.name);
+      if (found != planners_.end() && found->second.host == node.host) continue;
+      earlier_planners_.insert_or_assign({node.name, node.host}, node);
     }
   }
   left_out_ = known.last.left_out;
@@ -343,13 +347,20 @@ SessionMessage Driver::Session(bool finished) const {
   if (scene_server_ && registry_.Live(NodeKind::kSceneServer).empty()) {
     session.nodes.push_back(*scene_server_);  // it tells the warnings
   }
-  for (const auto* planners : {&planners_, &earlier_planners_}) {
-    for (const auto& [name, planner] : *planners) session.nodes.push_back(planner);
+  for (const auto& [name, planner] : planners_) session.nodes.push_back(planner);
+  std::vector<std::string> planner_warnings = planner_warnings_;
+  if (asked_) {
+    for (SessionPlanners::Move& move : asked_->moves()) {
+      session.nodes.push_back(std::move(move.process));
+      planner_warnings.push_back(std::move(move.warning));
+    }
   }
+  for (const auto& [place, planner] : earlier_planners_) session.nodes.push_back(planner);
   for (NodeStatusMessage& node : session.nodes) {
     if (node.kind != NodeKind::kSceneServer) continue;
     TellWarnings(kRobotWarning, options_.robot_warnings, &node.settings);
     TellWarnings(kProblemWarning, problem_warnings_, &node.settings);
+    TellWarnings(kPlannerWarning, planner_warnings, &node.settings);
   }
   TellChecks(session.conditions, session.conditions.contestants, &session.nodes);
   TellChecks(session.conditions, first_planners_, &session.nodes);

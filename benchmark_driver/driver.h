@@ -165,13 +165,15 @@ class Driver {
   std::vector<std::string> awaited_shards_;
   std::map<std::string, std::string> left_out_;  // SessionMessage's
   std::vector<std::string> problem_warnings_;    // of the session's problems
+  std::vector<std::string> planner_warnings_;    // of its parts before
   std::vector<Contestant> first_planners_;       // who find paths for contestants and are none
   std::unique_ptr<RunExecutor> executor_;
 
   /// By name, as found: processes that are described otherwise are not asked.
   std::map<std::string, NodeStatusMessage> planners_;
-  std::map<std::string, NodeStatusMessage> earlier_planners_;  // as the resumed session told
-  std::unique_ptr<SessionPlanners> asked_;                     // once discovered
+  /// By name and host, as the resumed session told: others than these.
+  std::map<std::pair<std::string, std::string>, NodeStatusMessage> earlier_planners_;
+  std::unique_ptr<SessionPlanners> asked_;  // once discovered
 
   std::mutex mutex_;
   RunRows runs_;

@@ -1,7 +1,9 @@
 #include "benchmark_driver/session_planners.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "common/lookup.h"
@@ -37,8 +39,30 @@ std::optional<std::vector<PlannerClient*>> SessionPlanners::ReadyFor(
     if (planner->IsCold() && !executor_->WarmUp(request, kWarmUpLimit, planner, interrupted)) {
       return std::nullopt;
     }
+    NoteHost(request, *planner);
   }
   return ready;
+}
+
+void SessionPlanners::NoteHost(const ScheduledRun& run, const PlannerClient& planner) {
+  const std::optional<NodeStatusMessage> process = planner.ToBeAsked();
+  const std::string& first_host = found_.at(planner.planner()).host;
+  if (!process || process->host == first_host) return;
+  const std::scoped_lock lock(mutex_);
+  const bool is_known = std::ranges::any_of(moves_, [&](const Move& move) {
+    return move.process.name == process->name && move.process.host == process->host;
+  });
+  if (is_known) return;
+  moves_.push_back(
+      {*process, fmt::format("the planner '{}' was on {} and is on {} from {} on: its "
+                             "times are not of one machine",
+                             process->name, first_host, process->host, run.request_id)});
+  spdlog::warn("{}", moves_.back().warning);
+}
+
+std::vector<SessionPlanners::Move> SessionPlanners::moves() const {
+  const std::scoped_lock lock(mutex_);
+  return moves_;
 }
 
 PlannerClient* SessionPlanners::ClientOf(const std::string& planner) {

@@ -46,12 +46,22 @@ class SessionPlanners {
   std::optional<std::vector<PlannerClient*>> ReadyFor(const ScheduledRun& run,
                                                       const std::function<bool()>& interrupted);
 
+  /// A planner that was asked on another host than it was found on.
+  struct Move {
+    NodeStatusMessage process;  ///< The first there.
+    std::string warning;        ///< For whoever reads the session's times.
+  };
+  /// Each planner's to each host once. Thread-safe.
+  std::vector<Move> moves() const;
+
   /// Driver's. Thread-safe.
   void GiveUp(const std::string& planner, const std::string& reason);
   std::map<std::string, std::string> given_up() const;
 
  private:
   PlannerClient* ClientOf(const std::string& planner);
+  /// Says once if the process that is asked for a run is on a host that is new.
+  void NoteHost(const ScheduledRun& run, const PlannerClient& planner);
   PlannerClient::Terms TermsOf(const std::string& planner);
   /// "" if it is not.
   std::string WhyGivenUp(const std::string& planner) const;
@@ -65,6 +75,7 @@ class SessionPlanners {
   PlannerRenewal renewal_;
   mutable std::mutex mutex_;
   std::map<std::string, std::string> given_up_;  // and why
+  std::vector<Move> moves_;
   std::map<std::string, std::unique_ptr<PlannerClient>> clients_;
 };
 

@@ -85,6 +85,8 @@ SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
       node.settings.clear();       // the folders it was given; what is in them has ids
     }
   }
+  // A planner that was on several hosts is there once for each.
+  session.nodes.erase(std::unique(session.nodes.begin(), session.nodes.end()), session.nodes.end());
   return session;
 }
 

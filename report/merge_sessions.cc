@@ -441,7 +441,9 @@ class Merge {
     for (NodeStatusMessage& node : session_.nodes) {
       if (node.kind != NodeKind::kSceneServer) continue;
       for (const NodeStatusMessage& one : told.nodes) {
-        TellWarnings(kProblemWarning, ToldWarnings(kProblemWarning, one.settings), &node.settings);
+        for (const char* kind : {kProblemWarning, kPlannerWarning}) {
+          TellWarnings(kind, ToldWarnings(kind, one.settings), &node.settings);
+        }
       }
     }
   }

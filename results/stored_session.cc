@@ -271,7 +271,7 @@ class Reader {
           session.machine = node.value("settings", session.machine);
         } else if (node.value("kind", "") == "scene server") {
           const auto told = node.value("settings", std::map<std::string, std::string>());
-          for (const char* kind : {kRobotWarning, kProblemWarning}) {
+          for (const char* kind : {kRobotWarning, kProblemWarning, kPlannerWarning}) {
             for (std::string& warning : ToldWarnings(kind, told)) {
               const bool is_new =
                   std::ranges::find(session.warnings, warning) == session.warnings.end();

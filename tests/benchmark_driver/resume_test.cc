@@ -210,6 +210,7 @@ TEST(RequireSameConditionsTest, WhatIsRunMayChangeAndWhenAndWhere) {
     s.conditions.contestants.erase(s.conditions.contestants.begin());
   }));
   EXPECT_NO_THROW(Resume([](auto& s) { std::swap(s.nodes[0], s.nodes[3]); }));
+  EXPECT_NO_THROW(Resume([](auto& s) { s.nodes.emplace_back(s.nodes[1]).host = "another"; }));
   EXPECT_NO_THROW(Resume([](auto& s) { s.settings["trials"] = "3"; }));
   EXPECT_NO_THROW(Resume([](auto& s) {
     s.conditions.contestants[0].about = s.conditions.contestants[0].published = "more";

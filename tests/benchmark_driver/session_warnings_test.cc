@@ -4,7 +4,9 @@
 #include <atomic>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planning/told_warnings.h"
@@ -54,6 +56,59 @@ TEST_F(DriverTest, WhatWasOddAboutRobotsAndProblemsIsToldWithTheSession) {
   MakeAll(&again);
   EXPECT_THAT(ToldBy(logger.sessions().messages().back(), kProblemWarning),
               ElementsAre("request0001.yaml: is odd"));
+}
+
+/// Hosts of the nodes of a name that a session tells of.
+std::multiset<std::string> HostsOf(const std::string& name, const SessionMessage& session) {
+  std::multiset<std::string> hosts;
+  for (const NodeStatusMessage& node : session.nodes) {
+    if (node.name == name) hosts.insert(node.host);
+  }
+  return hosts;
+}
+
+TEST_F(DriverTest, APlannerThatComesBackOnAnotherHostIsTold) {
+  std::atomic<bool> dies = false;
+  FakePlanner planner(&bus_);
+  planner.OnRequest([&](const PlanRequest& request) {
+    if (request.request_id.find("/forward/2@") == std::string::npos) return planner.Solve(request);
+    dies = true;
+  });
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.directions = Directions::kForward;
+  options.problem_indices = {1};
+  options.trials = 4;
+  {
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
+    driver.Discover(true, Idle);
+    bool has_come = false;
+    testing::internal::CaptureStdout();  // Where messages go.
+    EXPECT_TRUE(driver.Run(Never, [&] {
+      if (!dies || std::exchange(has_come, true)) return;
+      planner.status.host = "elsewhere";
+      planner.Restart();
+    }));
+    const std::string said = testing::internal::GetCapturedStdout();
+    const std::size_t told = said.find("and is on elsewhere from");
+    EXPECT_NE(told, std::string::npos) << said;
+    EXPECT_EQ(said.find("and is on elsewhere from", told + 1), std::string::npos) << "once";
+  }
+  const std::vector<SessionMessage> sessions = logger.sessions().messages();
+  const auto is_told = ElementsAre("the planner 'arm' was on " + HostName() +
+                                   " and is on elsewhere from run/cans/1/arm/forward/3 on: its "
+                                   "times are not of one machine");
+  const std::multiset<std::string> both = {HostName(), "elsewhere"};
+  EXPECT_THAT(ToldBy(sessions.front(), kPlannerWarning), IsEmpty());
+  EXPECT_THAT(ToldBy(sessions.back(), kPlannerWarning), is_told);
+  EXPECT_EQ(HostsOf("arm", sessions.back()), both);
+  // The resumed session finds it where it is, and forgets nothing.
+  planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
+  Driver again(&bus_, options, LineUp({"arm"}), {}, {sessions, Held(logger.records().messages())});
+  MakeAll(&again);
+  EXPECT_THAT(ToldBy(logger.sessions().messages().back(), kPlannerWarning), is_told);
+  EXPECT_EQ(HostsOf("arm", logger.sessions().messages().back()), both);
 }
 
 TEST_F(DriverTest, OfASceneServerThatIsGoneAtTheEndTheWarningsStay) {

@@ -174,19 +174,20 @@ TEST_F(ReportTest, PlannersThatWereStartedAnewAreTold) {
   }
 }
 
-TEST_F(ReportTest, WhatWasOddAboutRobotsAndProblemsIsTold) {
+TEST_F(ReportTest, WhatWasOddAboutRobotsProblemsAndPlannersIsTold) {
   const TemporaryFolder folder;
   SessionMessage session = ExampleSession();
   NodeStatusMessage& server = session.nodes.emplace_back();
   server.kind = NodeKind::kSceneServer;
   TellWarnings(kProblemWarning, {"request0001.yaml: is odd"}, &server.settings);
   TellWarnings(kRobotWarning, {"arm.urdf: is odd", "judge: it is bent"}, &server.settings);
+  TellWarnings(kPlannerWarning, {"'ara' has moved"}, &server.settings);
   session.nodes.push_back(server);  // as another part of the session has it
   WriteSession(folder / "it", {{.contestant = "A"}}, session);
   std::vector<std::string> told = Cautions(ComparedSessions(ReadSessions(folder / "it").sessions));
   std::erase_if(told, [](const std::string& line) { return !line.starts_with("it: "); });
   EXPECT_THAT(told, testing::IsSupersetOf({"it: arm.urdf: is odd", "it: judge: it is bent",
-                                           "it: request0001.yaml: is odd"}));
+                                           "it: request0001.yaml: is odd", "it: 'ara' has moved"}));
   EXPECT_EQ(std::ranges::count(told, "it: judge: it is bent"), 1);
 }
 

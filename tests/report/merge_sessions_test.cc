@@ -88,7 +88,7 @@ TEST_F(MergeSessionsTest, WhatOnePartLeftOutAndAnotherDidNotIsToBeMade) {
   EXPECT_EQ(neither.left_out, one.left_out);
 }
 
-TEST_F(MergeSessionsTest, WhatIsOddAboutTheProblemsOfAnyPartIsTold) {
+TEST_F(MergeSessionsTest, WhatIsOddAboutTheProblemsAndPlannersOfAnyPartIsTold) {
   for (const int index : {1, 2}) {
     SessionMessage part = PartOf(index, 2);
     NodeStatusMessage& server = part.nodes.emplace_back();
@@ -96,11 +96,13 @@ TEST_F(MergeSessionsTest, WhatIsOddAboutTheProblemsOfAnyPartIsTold) {
     server.name = "scene_server";
     TellWarnings(kRobotWarning, {"is odd"}, &server.settings);
     TellWarnings(kProblemWarning, {fmt::format("{} is odd", index)}, &server.settings);
+    TellWarnings(kPlannerWarning, {fmt::format("{} has moved", index)}, &server.settings);
     Write(fmt::format("part{}", index), part, {{.contestant = "A", .problem = index}});
   }
   ASSERT_EQ(MergeTo("both", {"part1", "part2"}), kExitOk) << errors_;
-  EXPECT_EQ(ReadSessions(folder_ / "both").sessions.front().warnings,
-            (std::vector<std::string>{"is odd", "1 is odd", "2 is odd"}));
+  EXPECT_EQ(
+      ReadSessions(folder_ / "both").sessions.front().warnings,
+      (std::vector<std::string>{"is odd", "1 is odd", "2 is odd", "1 has moved", "2 has moved"}));
 }
 
 TEST_F(MergeSessionsTest, AWholeAndAPartOfItAreTheWhole) {
