@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <thread>
@@ -11,6 +12,7 @@
 
 #include "benchmark_driver/logger_lock.h"
 #include "common/error.h"
+#include "common/lookup.h"
 #include "messaging/session_conditions.h"
 #include "results/reproduce.h"
 #include "results/session_plan.h"
@@ -51,9 +53,17 @@ void RequireLogged(const StoredIds& stored, const RecordedSession& logged,
       ShellQuoted(folder.string() + "-rebuilt")));
 }
 
-std::string ShardText(const SessionMessage& session) {
-  const std::string& shard = session.settings.at(kShardFlag);
-  return shard.empty() ? "no --shard" : "--shard " + shard;
+/// Throws InputError if both tell how the flag was given, and `is_same` of these is false.
+template <typename IsSame>
+void RequireSameFlag(const SessionMessage& before, const SessionMessage& now, const char* flag,
+                     const IsSame& is_same) {
+  const auto was = Lookup(before.settings, flag), is = Lookup(now.settings, flag);
+  if (!was || !is || is_same(*was, *is)) return;
+  const auto text = [flag](const std::string& value) {
+    return value.empty() ? fmt::format("no --{}", flag) : fmt::format("--{} {}", flag, value);
+  };
+  throw InputError(fmt::format("--resume: the session was begun with {} and goes on with {} now",
+                               text(*was), text(*is)));
 }
 
 }  // namespace
@@ -97,10 +107,12 @@ EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder) {
 }
 
 void RequireSameConditions(const SessionMessage& before, const SessionMessage& now) {
-  const bool both_tell = before.settings.contains(kShardFlag) && now.settings.contains(kShardFlag);
-  if (both_tell && !IsMerged(before.settings) && ShardText(before) != ShardText(now)) {
-    throw InputError(fmt::format("--resume: the session was begun with {} and goes on with {} now",
-                                 ShardText(before), ShardText(now)));
+  if (!IsMerged(before.settings)) {
+    RequireSameFlag(before, now, kShardFlag, std::equal_to<>());
+    // Which processors these are may be another machine's matter.
+    RequireSameFlag(before, now, "pin", [](const std::string& was, const std::string& is) {
+      return was.empty() == is.empty();
+    });
   }
   const auto difference = FindConditionDifference(before, now);
   if (!difference) return;

@@ -276,6 +276,22 @@ TEST(RequireSameConditionsTest, AnotherShardIsRefusedUnlessTheSessionWasMerged) 
   ExpectInputError([&] { RequireSameConditions(before, now); }, {"--shard 1/3", "--shard 2/3"});
 }
 
+TEST(RequireSameConditionsTest, PinnedPlannersStayPinnedNoMatterWhere) {
+  const auto resume_with = [](const std::string& before, const std::string& now) {
+    SessionMessage first, second;
+    first.settings["pin"] = before;
+    second.settings["pin"] = now;
+    RequireSameConditions(first, second);
+    RequireSameConditions(SessionMessage(), second);  // it is not told
+    first.settings[kMergedParts] = "{}";
+    RequireSameConditions(first, second);
+  };
+  EXPECT_NO_THROW(resume_with("", ""));
+  EXPECT_NO_THROW(resume_with("2-3", "0"));
+  ExpectInputError([&] { resume_with("2-3", ""); }, {"--resume", "--pin 2-3", "no --pin"});
+  ExpectInputError([&] { resume_with("", "1"); }, {"--resume", "no --pin", "--pin 1"});
+}
+
 TEST(RequireSameConditionsTest, NumbersOfFlagsAndSettingsAreComparedAsNumbers) {
   const auto resume_with = [](const std::string& before, const std::string& now) {
     SessionMessage first, second;
