@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
+#include <string_view>
 
+#include "benchmark_driver/published_study.h"
 #include "common/error.h"
 #include "common/file_kind.h"
 #include "common/yaml.h"
@@ -80,6 +83,28 @@ std::filesystem::path FindConfig(const YamlNode& node, const std::filesystem::pa
   node.Fail(fmt::format("no such file beside the line-up or in {}", robot_folder.string()));
 }
 
+/// What is told by `key`, which is something if it is there; "" if it is not.
+std::string Told(const YamlNode& node, const std::string& key) {
+  const auto found = node.Find(key);
+  if (!found) return "";
+  std::string text = found->String();
+  if (text.find_first_not_of(' ') == std::string::npos) found->Fail("says nothing");
+  return text;
+}
+
+/// The name of one who has figures in the published study; "" if there is none.
+std::string ReadPublished(const YamlNode& node) {
+  std::string name = Told(node, "published");
+  std::set<std::string_view> known;
+  for (const PublishedFigures& figures : PublishedStudy()) known.insert(figures.algorithm);
+  if (!name.empty() && !known.contains(name)) {
+    node.At("published")
+        .Fail(fmt::format("the study has no figures of '{}'; it has those of: {}", name,
+                          fmt::join(known, ", ")));
+  }
+  return name;
+}
+
 std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNode& node,
                                         const std::filesystem::path& file,
                                         const std::optional<std::filesystem::path>& robot_folder) {
@@ -90,11 +115,11 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
   LineUpEntry entry;
   Contestant& contestant = entry.contestant;
   contestant.planner = entry.key = planner;
-  contestant.name = node.StringOr("name", "");
+  contestant.name = Told(node, "name");
   contestant.about = node.StringOr("about", "");
-  contestant.published = node.StringOr("published", "");
-  contestant.command = node.StringOr("command", "");
-  contestant.first_path_of = node.StringOr("first_path_of", "");
+  contestant.published = ReadPublished(node);
+  contestant.command = Told(node, "command");
+  contestant.first_path_of = Told(node, "first_path_of");
   entry.program = node.StringOr("program", contestant.command.empty() ? planner : "");
   if (const auto model = node.Find("collision_model")) {
     contestant.collision_model = model->Enum<CollisionModel>();
@@ -139,6 +164,12 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
   return entries;
 }
 
+std::vector<std::string> NamesOf(const std::vector<LineUpEntry>& entries) {
+  std::vector<std::string> names;
+  for (const LineUpEntry& entry : entries) names.push_back(entry.contestant.planner);
+  return names;
+}
+
 /// What a name stands for: the planner of that name, else all that a sweep of that name makes.
 std::vector<LineUpEntry*> Find(std::vector<LineUpEntry>* entries, const std::string& name) {
   std::vector<LineUpEntry*> found;
@@ -153,8 +184,10 @@ std::vector<LineUpEntry*> Find(std::vector<LineUpEntry>* entries, const std::str
 std::vector<LineUpEntry*> Chosen(std::vector<LineUpEntry>* entries, const std::string& name,
                                  const std::string& where) {
   std::vector<LineUpEntry*> found = Find(entries, name);
-  if (found.empty())
-    throw InputError(fmt::format("{}: '{}' is not among the planners", where, name));
+  if (found.empty()) {
+    throw InputError(fmt::format("{}: '{}' is not among the planners: {}", where, name,
+                                 fmt::join(NamesOf(*entries), ", ")));
+  }
   return found;
 }
 
@@ -179,10 +212,8 @@ std::vector<LineUpEntry> Pick(std::vector<LineUpEntry> entries,
   for (const std::string& planner : planners) {
     const std::vector<LineUpEntry*> found = Find(&entries, planner);
     if (found.empty()) {
-      std::vector<std::string> known;
-      for (const LineUpEntry& one : entries) known.push_back(one.contestant.planner);
       throw InputError(fmt::format("--planners: {} has no '{}'; it has: {}", file.string(), planner,
-                                   fmt::join(known, ", ")));
+                                   fmt::join(NamesOf(entries), ", ")));
     }
     for (const LineUpEntry* entry : found) picked.push_back(*entry);
   }
@@ -214,11 +245,19 @@ void RequireNotSwept(const LineUpEntry& entry, const std::string& key) {
 }
 
 void RequireDistinct(const std::vector<LineUpEntry>& entries) {
+  // Of two processes of one name only one stays on a bus.
+  static const std::set<std::string> kTaken = {"driver", "logger", "scene_server"};
   std::map<std::string, std::string> by_channel;
   std::map<std::string, std::string> by_name;
   for (const LineUpEntry& entry : entries) {
     const Contestant& contestant = entry.contestant;
     const std::string& planner = contestant.planner;
+    if (kTaken.contains(planner)) {
+      throw InputError(
+          fmt::format("a planner cannot be called '{}', as another process of the "
+                      "session is",
+                      planner));
+    }
     const auto [same, is_new] = by_channel.emplace(PlannerChannels(planner).request, planner);
     if (!is_new) {
       throw InputError(same->second == planner

@@ -44,8 +44,9 @@ std::vector<LineUpEntry> ReadLineUp(const std::filesystem::path& file,
 /// without a line-up each is named as its program. The key of a sweep stands for all contestants
 /// that it makes, as `first_path_of` for the one of them that is chosen. Behind the contestants
 /// stand those whose paths they improve and that are not chosen. Throws InputError for names that
-/// are unknown, occur twice or would share their channels, for commands and settings of others, for
-/// settings that a sweep decides, and where a name stands for several and one is needed.
+/// are unknown, another process's, occur twice or would share their channels, for commands and
+/// settings of others, for settings that a sweep decides, and where a name stands for several and
+/// one is needed.
 std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
                                     const std::optional<std::filesystem::path>& robot_folder);
 

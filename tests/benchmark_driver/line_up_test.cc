@@ -1,5 +1,6 @@
 #include "benchmark_driver/line_up.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -270,6 +271,32 @@ TEST_F(LineUpTest, CommandsAndSettingsAreOfThosePicked) {
   ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"--set", "'x'"});
 }
 
+TEST_F(LineUpTest, NoPlannerIsCalledAsAnotherProcessOfTheSession) {
+  for (const std::string name : {"driver", "logger", "scene_server"}) {
+    LineUpFlags flags = Flags("contestants: {" + name + ": {program: rrtc}}");
+    ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"called '" + name + "'"});
+    flags.file.reset();
+    flags.planners = {name};
+    flags.commands = {{name, "./mine"}};
+    ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"called '" + name + "'"});
+  }
+}
+
+TEST_F(LineUpTest, WhatIsThereSaysSomething) {
+  for (const char* key : {"name", "command", "published", "first_path_of"}) {
+    for (const char* text : {"\"\"", "'  '"}) {
+      ExpectInputError([&] { Read(fmt::format("contestants:\n  a: {{{}: {}}}", key, text)); },
+                       {fmt::format("a.{}", key), "says nothing"});
+    }
+  }
+}
+
+TEST_F(LineUpTest, FiguresArePublishedOfTheStudysPlanners) {
+  EXPECT_EQ(Read("contestants: {a: {published: ARA*}}").at(0).contestant.published, "ARA*");
+  ExpectInputError([&] { Read("contestants:\n  a: {published: RRTConnect}"); },
+                   {":2", "a.published", "'RRTConnect'", "ARA*, RRT-Connect"});
+}
+
 TEST_F(LineUpTest, AFirstPathIsOfAnotherWhoFindsItAlone) {
   const std::string text = R"(contestants:
   chomp: {program: trajopt, first_path_of: rrtc}
@@ -288,7 +315,7 @@ TEST_F(LineUpTest, AFirstPathIsOfAnotherWhoFindsItAlone) {
     flags.planners = planners;
     ExpectInputError([&] { MakeLineUp(flags, robot()); }, parts);
   };
-  expect_refused({"lost"}, {"'lost'", "first_path_of", "'nobody' is not among the planners"});
+  expect_refused({"lost"}, {"'lost'", "first_path_of", "'nobody' is not among the planners: lost"});
   expect_refused({"stomp", "chomp", "rrtc"}, {"'stomp'", "'chomp' does not find a path by itself"});
   expect_refused({"self"}, {"'self' does not find a path by itself"});
 
