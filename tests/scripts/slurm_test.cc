@@ -108,6 +108,20 @@ TEST_F(SlurmTest, RunsEveryShardAndMergesThem) {
   EXPECT_THAT(submitted[1], HasSubstr("--dependency=afterany:17"));
 }
 
+TEST_F(SlurmTest, ItsFlagsMayBeGivenWithEqualsSigns) {
+  ASSERT_EQ(Submit({"--tasks=1", "--out=" + out_, "--sbatch=--partition=cpu --exclusive",
+                    "--container=env A=b", "--robot=fetch", "--problems", ""}),
+            0)
+      << errors_;
+  EXPECT_THAT(
+      Lines(folder_ / "driver"),
+      ElementsAre("--launch --robot=fetch --problems  --shard 1/1 --out " + out_ + "/shards/1"))
+      << Read(folder_ / "log");
+  EXPECT_THAT(Lines(folder_ / "sbatch").front(),
+              HasSubstr("--array=1 --partition=cpu --exclusive"));
+  EXPECT_THAT(Read(out_ + "/job"), HasSubstr("exec env A=b "));
+}
+
 TEST_F(SlurmTest, WhatDiedIsResumedAndWhatIsFinishedIsLeft) {
   const std::vector<std::string> command = {"--tasks", "3", "--out", out_, "--seed", "7"};
   ASSERT_EQ(Submit(command, "2"), 0) << errors_;
