@@ -57,6 +57,16 @@ CLI::Validator Within(double least, double most) {
 
 namespace {
 
+/// Of what is given nothing is empty text: it names no file, no bus and nobody. (CLI11 refuses it
+/// behind an equals sign alone.)
+void RequireNotEmpty(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& text : option->results()) {
+      if (text.empty()) throw InputError(option->get_name() + ": the text given is empty");
+    }
+  }
+}
+
 int ParseAndWork(CLI::App* app, int argc, char** argv, const std::function<int()>& work) {
   const std::string& name = app->get_name();
   try {
@@ -65,6 +75,7 @@ int ParseAndWork(CLI::App* app, int argc, char** argv, const std::function<int()
       if (FindInvalidUtf8(argv[i])) throw InputError(std::string(argv[i]) + ": is no UTF-8 text");
     }
     app->parse(argc, argv);
+    RequireNotEmpty(*app);
     return work();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app->exit(error);  // --help, --version

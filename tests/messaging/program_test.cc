@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include "common/command_line.h"
 #include "common/error.h"
@@ -84,6 +85,23 @@ TEST_F(ProgramTest, BadFlagsEndWith2AndOneLine) {
   EXPECT_THAT(err_, StartsWith("tester: "));
   EXPECT_THAT(err_, HasSubstr("--nonsense"));
   EXPECT_THAT(err_, EndsWith("(see tester --help)\n"));
+}
+
+TEST_F(ProgramTest, EmptyTextIsRefusedByTheNameOfItsFlag) {
+  std::vector<std::string> words;
+  std::string text;
+  bool is_on = false;
+  program_.app().add_option("words", words);
+  program_.app().add_option("--text", text);
+  program_.app().add_flag("--on", is_on);
+  EXPECT_EQ(Run({"one", "--text", "two", "--on"}, [] { return 7; }), 7) << err_;
+  const std::pair<std::vector<std::string>, std::string> kEmpty[] = {
+      {{"--text", ""}, "--text"}, {{"--lcm-url", ""}, "--lcm-url"}, {{"one", ""}, "words"}};
+  for (const auto& [arguments, named] : kEmpty) {
+    spdlog::drop("tester");
+    EXPECT_EQ(Run(arguments, MustNotWork), kExitBadInput);
+    EXPECT_EQ(err_, "tester: " + named + ": the text given is empty\n");
+  }
 }
 
 TEST_F(ProgramTest, MissingRequiredFlagIsNamed) {
