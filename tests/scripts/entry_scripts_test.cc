@@ -98,6 +98,28 @@ TEST_F(EntryScriptsTest, RobotsThatShipAreHiddenByRobotsAloneAndTheDefaultOneByN
   EXPECT_EQ(notes_, "");
 }
 
+TEST_F(EntryScriptsTest, OtherFlagsChangeWhatQuickAndStudySayInWhicheverOrder) {
+  const auto flags = [&](const std::vector<std::string>& arguments) {
+    EXPECT_EQ(Call("run", arguments), 0) << errors_;
+    return notes_.substr(notes_.find(" --lineup"));
+  };
+  const auto both_orders = [&](const std::string& preset, const std::vector<std::string>& others) {
+    std::vector<std::string> before = {preset}, behind = others;
+    before.insert(before.end(), others.begin(), others.end());
+    behind.push_back(preset);
+    const std::string told = flags(before);
+    EXPECT_EQ(flags(behind), told);
+    return told;
+  };
+  const std::string line_ups = (checkout_ / "lineups").string();
+  EXPECT_EQ(
+      both_orders("--quick", {"--trials", "5", "--problems", "sets"}),
+      fmt::format(" --lineup {}/default.yaml --time 1 --trials 5 --problems sets\n", line_ups));
+  EXPECT_EQ(
+      both_orders("--study", {"--time", "10", "--problems", "sets"}),
+      fmt::format(" --lineup {}/study.yaml --trials 1 --time 10 --problems sets\n", line_ups));
+}
+
 TEST_F(EntryScriptsTest, TheUsageSaysThatRobotsThatShipAreTakenByName) {
   EXPECT_EQ(Call("run", {"--help"}), 0) << errors_;
   for (const char* flag : {"--robot panda", "--referee-robot ROBOT"}) {
