@@ -277,8 +277,8 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
   AddLaunchFlags(app, resume, options);
   CLI::Option* replay = app->add_option(
       "--replay", options->replay,
-      "event log of a session whose requests are made again, of live planners or with --launch; "
-      "tells which answers differ. --planners chooses; what a request says is the log's");
+      "event log, or folder, of a session whose requests are made again, of live planners or with "
+      "--launch; tells which answers differ. --planners chooses; what a request says is the log's");
   // All but who answers, how they are started and where they are found.
   const std::set<std::string> taken = {"help",
                                        "version",

@@ -54,7 +54,7 @@ struct DriverOptions {
   /// Where records wait for loggers to come, beyond what memory holds.
   std::filesystem::path record_folder = "/tmp";
 
-  std::optional<std::filesystem::path> replay;  ///< Event log whose requests are made again.
+  std::optional<std::filesystem::path> replay;  ///< Log or folder of a session to replay.
 
   bool launch = false;
   std::optional<std::filesystem::path> resume;  ///< Session folder to go on with.

@@ -68,7 +68,8 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
                   const std::string& lcm_url, bool lcm_url_given,
                   const std::function<bool()>& interrupted) {
   DriverOptions options = given_options;
-  const std::filesystem::path& log = options.replay.value();
+  const std::filesystem::path& given = options.replay.value();
+  const std::filesystem::path log = IsFolder(given) ? FindEventLog(given) : given;
   if (!IsFile(log)) throw InputError(log.string() + ": there is no such event log");
   RecordedSession recorded = ReadRecords(log);
   std::map<std::string, Scene> scenes = ReadScenes(log, &recorded.passed_over);

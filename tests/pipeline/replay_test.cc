@@ -112,6 +112,12 @@ TEST_F(Replay, PlannersAnswerAsTheyDidOrItIsSaid) {
     EXPECT_EQ(statuses.Count([](const auto& s) { return s.collision_models.size() > 1; }), 0u);
   }
 
+  ChildProcess* of_folder =
+      Start({Program("benchmark_driver"), "--launch", "--robot", RobotFolder(), "--replay",
+             session.string(), "--out", (folder() / "of_folder").string()});
+  EXPECT_EQ(of_folder->Wait(), 0) << of_folder->Output() << of_folder->Errors();
+  ExpectBadInput(StartDriver({"--replay", (folder() / "same").string()}), "holds no .lcmlog file");
+
   ChildProcess* other = launched("other", {"--set", "rrtc.range=0.3"});
   EXPECT_EQ(other->Wait(), 1) << other->Output() << other->Errors();
   EXPECT_NE(other->Output().find("shelf_demo/2/rrtc/forward/1: path"), std::string::npos)
