@@ -226,6 +226,8 @@ TEST_F(SlurmTest, RefusesBadUseInOneLine) {
       {{"--tasks", "2"}, "--out: a folder is needed"},
       {{"--tasks", "2", "--out", "a\\b"}, "a\\b': Slurm drops backslashes"},
       {{"--tasks", "2", "--out", out_, "--shard", "1/2"}, "--shard: that is this program's to say"},
+      {{"--tasks", "2", "--out", out_, "--lcm-url=u"},
+       "--lcm-url=u: that is this program's to say"},
       {{"--tasks"}, "--tasks: which?"},
   };
   for (const auto& [arguments, message] : cases) {
