@@ -29,7 +29,8 @@ EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder);
 /// A session can be given more sets, problems, planners or trials when it is resumed, but nothing
 /// else that can change a result (messaging/session_conditions.h): its tables would compare what is
 /// not alike; nor, unless it was merged (of parts, be it one), another shard, as its parts would
-/// not be the whole's, or planners that are pinned where they were not, or the reverse. Throws InputError with the first field that differs, before and now.
+/// not be the whole's, or planners that are pinned where they were not, or the reverse. Throws
+/// InputError with the first field that differs, before and now.
 void RequireSameConditions(const SessionMessage& before, const SessionMessage& now);
 
 }  // namespace planbench
