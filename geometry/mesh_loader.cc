@@ -1,7 +1,6 @@
 #include "geometry/mesh_loader.h"
 
 #include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
@@ -12,6 +11,7 @@
 #include <initializer_list>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "common/error.h"
@@ -19,8 +19,8 @@
 #include "common/read_text.h"
 #include "geometry/collada_text.h"
 #include "geometry/obj_text.h"
-#include "geometry/plain_polygons.h"
 #include "geometry/ply_reader.h"
+#include "geometry/polygons.h"
 #include "geometry/stl_reader.h"
 #include "geometry/text_words.h"
 
@@ -52,6 +52,16 @@ class MeshBuilder {
         index_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
     if (is_new) mesh_.vertices.emplace_back(key[0], key[1], key[2]);
     return entry->second;
+  }
+
+  // By its vertices.
+  void AddPolygon(std::span<const std::uint32_t> corners, bool mirrored) {
+    if (corners.size() == 3) return AddTriangle(corners[0], corners[1], corners[2], mirrored);
+    std::vector<Vector3d> positions;
+    for (const std::uint32_t corner : corners) positions.push_back(mesh_.vertices[corner]);
+    for (const auto& [a, b, c] : Triangulate(positions)) {
+      AddTriangle(corners[a], corners[b], corners[c], mirrored);
+    }
   }
 
   // Mirroring turns surfaces inside out; the order of the corners turns them back.
@@ -119,16 +129,19 @@ void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to
       const Vector3d vertex = (transform * Eigen::Vector4d(p.x, p.y, p.z, 1)).head<3>();
       indices.push_back(builder->AddVertex(vertex));
     }
+    std::vector<std::uint32_t> corners;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // Points and lines have no surface.
-      const auto corner = [&](int i) {
-        const unsigned index = face.mIndices[i];
-        if (index < indices.size()) return indices[index];
-        throw InputError(fmt::format("{}: a face names vertex {}, counted from 0, of {}",
-                                     builder->file(), index, indices.size()));
-      };
-      builder->AddTriangle(corner(0), corner(1), corner(2), mirrored);
+      corners.clear();
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        const unsigned index = face.mIndices[k];
+        if (index >= indices.size()) {
+          throw InputError(fmt::format("{}: a face names vertex {}, counted from 0, of {}",
+                                       builder->file(), index, indices.size()));
+        }
+        corners.push_back(indices[index]);
+      }
+      builder->AddPolygon(corners, mirrored);  // Points and lines have no surface.
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
@@ -136,39 +149,40 @@ void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to
   }
 }
 
-// Adds what assimp makes of a file; OBJ and PLY files are made plain OBJ for it first.
+// Adds what assimp makes of a file. It is not asked to cut polygons into triangles: of those with
+// corners in a row it leaves out parts.
 void AddScene(const fs::path& path, const std::string& format, const Vector3d& scale,
               MeshBuilder* builder) {
   const std::string file = path.string();
   if (format == ".zae") {
     throw InputError(file + ": is an archive; unpack it (unzip) and name the .dae within");
   }
+  if (format == ".dae" || format == ".xml") CheckCollada(ReadText(path), file);
   Assimp::Importer importer;
   // Robot descriptions take a mesh's axes as they are written, whatever the file calls "up".
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = nullptr;
-  Vector3d origin = Vector3d::Zero();
-  const bool is_plain = format == ".obj" || format == ".ply";
-  if (is_plain) {
-    const std::string text = ReadText(path);
-    const PlainPolygons polygons = format == ".obj" ? PlainObj(text, file) : ReadPly(text, file);
-    const std::string plain = polygons.Text();
-    if (plain.empty()) return;
-    origin = polygons.origin();
-    scene = importer.ReadFileFromMemory(plain.data(), plain.size(), aiProcess_Triangulate, "obj");
-  } else {
-    if (format == ".dae" || format == ".xml") CheckCollada(ReadText(path), file);
-    scene = importer.ReadFile(file, aiProcess_Triangulate);
-  }
+  // Else it draws bones where there is no mesh.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  const aiScene* scene = importer.ReadFile(file, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw InputError(
         fmt::format("{}: cannot be read as a mesh: {}", file, importer.GetErrorString()));
   }
   Eigen::Matrix4d to_shape = Eigen::Matrix4d::Identity();
   to_shape.diagonal().head<3>() = scale;
-  to_shape.topRightCorner<3, 1>() = scale.cwiseProduct(origin);
   AddNode(*scene, *scene->mRootNode, to_shape, builder);
-  if (!is_plain) builder->CheckRounding();
+  builder->CheckRounding();
+}
+
+void AddPolygons(const Polygons& polygons, const Vector3d& scale, MeshBuilder* builder) {
+  std::vector<std::uint32_t> corners;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    corners.clear();
+    for (const std::uint32_t corner : polygons.corners(i)) {
+      corners.push_back(builder->AddVertex(polygons.vertices()[corner].cwiseProduct(scale)));
+    }
+    builder->AddPolygon(corners, scale.prod() < 0);
+  }
 }
 
 // Of Git LFS, what stands in a file's place until that is fetched.
@@ -333,6 +347,10 @@ TriangleMesh LoadMesh(const fs::path& path, const Vector3d& scale) {
   try {
     if (format == ".stl") {
       AddStl(path, scale, &builder);
+    } else if (format == ".obj") {
+      AddPolygons(ReadObj(ReadText(path), file), scale, &builder);
+    } else if (format == ".ply") {
+      AddPolygons(ReadPly(ReadText(path), file), scale, &builder);
     } else {
       AddScene(path, format, scale, &builder);
     }

@@ -26,7 +26,7 @@ class ObjReader {
     }
   }
 
-  PlainPolygons Take() { return std::move(polygons_); }
+  Polygons Take() { return std::move(polygons_); }
 
  private:
   [[noreturn]] void Fail(int line, const std::string& what) const {
@@ -86,7 +86,7 @@ class ObjReader {
   void ReadFace(std::string_view words) {
     std::vector<std::uint32_t> corners;
     for (std::string_view word = TakeWord(&words); !word.empty(); word = TakeWord(&words)) {
-      corners.push_back(static_cast<std::uint32_t>(ReadIndex(word)));
+      corners.push_back(static_cast<std::uint32_t>(ReadIndex(word) - 1));
     }
     // Lines and points have elements of their own: this one lost its corners.
     if (corners.size() < 3) {
@@ -95,7 +95,7 @@ class ObjReader {
     polygons_.AddPolygon(corners);
   }
 
-  // The vertex of "7", "7/1", "7//3" or "7/1/3"; -1 is the last one so far.
+  // The vertex, counted from 1, of "7", "7/1", "7//3" or "7/1/3"; -1 is the last one so far.
   int ReadIndex(std::string_view word) {
     const std::string_view digits = word.substr(0, word.find('/'));
     int index = 0;
@@ -115,7 +115,7 @@ class ObjReader {
 
   TextLines lines_;
   const std::string& file_;
-  PlainPolygons polygons_;
+  Polygons polygons_;
   int num_vertices_ = 0;
   int highest_index_ = 0;  // That a face names: vertices may follow later.
   int line_of_highest_ = 0;
@@ -123,7 +123,7 @@ class ObjReader {
 
 }  // namespace
 
-PlainPolygons PlainObj(std::string_view text, const std::string& file) {
+Polygons ReadObj(std::string_view text, const std::string& file) {
   RefuseUtf16(text, file);
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // The mark of UTF-8.
   return ObjReader(text, file).Take();

@@ -3,13 +3,13 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/plain_polygons.h"
+#include "geometry/polygons.h"
 
 namespace planbench {
 
 /// What a Wavefront OBJ file tells of surfaces. Readers stumble over much of what is written in the
 /// field: numbers such as .5, comments behind them, indented lines. Throws InputError naming `file`
 /// and the line for vertices and faces that cannot be read.
-PlainPolygons PlainObj(std::string_view text, const std::string& file);
+Polygons ReadObj(std::string_view text, const std::string& file);
 
 }  // namespace planbench

@@ -69,7 +69,7 @@ class PlyReader {
     RefuseRest();
   }
 
-  PlainPolygons Take() { return std::move(polygons_); }
+  Polygons Take() { return std::move(polygons_); }
 
  private:
   [[noreturn]] void Fail(const std::string& what) const {
@@ -252,7 +252,7 @@ class PlyReader {
   }
 
   void AddCorners(bool is_strips) {
-    std::vector<std::uint32_t> corners;  // Counted from 1.
+    std::vector<std::uint32_t> corners;
     for (const double index : list_) {
       digits_may_follow_ = index > 0 && 10 * index < static_cast<double>(num_vertices_);
       if (is_strips && index == -1) {
@@ -265,7 +265,7 @@ class PlyReader {
         Fail(fmt::format("there is no vertex {}; the file has {}, counted from 0", index,
                          num_vertices_));
       }
-      corners.push_back(static_cast<std::uint32_t>(index) + 1);
+      corners.push_back(static_cast<std::uint32_t>(index));
     }
     if (is_strips) {
       AddStrip(corners);
@@ -316,12 +316,12 @@ class PlyReader {
   // The number that came last is used, and would be another, as good, with more digits.
   bool digits_may_follow_ = false;
   std::vector<double> list_;
-  PlainPolygons polygons_;
+  Polygons polygons_;
 };
 
 }  // namespace
 
-PlainPolygons ReadPly(std::string_view data, const std::string& file) {
+Polygons ReadPly(std::string_view data, const std::string& file) {
   return PlyReader(data, file).Take();
 }
 

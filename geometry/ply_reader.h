@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/plain_polygons.h"
+#include "geometry/polygons.h"
 
 namespace planbench {
 
@@ -12,6 +12,6 @@ namespace planbench {
 /// line or the element, for files that are cut off (or may be: the last line needs no end where no
 /// longer number could stand there), or hold more than their header tells, corners that are no
 /// vertex, and vertices that are not finite.
-PlainPolygons ReadPly(std::string_view data, const std::string& file);
+Polygons ReadPly(std::string_view data, const std::string& file);
 
 }  // namespace planbench

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <set>
 
+#include "geometry/solid_mesh.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
@@ -324,7 +325,8 @@ TEST_F(LoadMeshTest, ReadsColladaPolygonsOfEveryKind) {
   for (const std::string& square :
        {"<polylist count='1'>" + input + "<vcount>4</vcount><p>0 2 3 1</p></polylist>",
         "<polygons count='1'>" + input + "<p>0 2 3 1</p></polygons>",
-        "<trifans count='1'>" + input + "<p>0 2 3 1</p></trifans>",
+        "<triangles count='0'>" + input + "<p> </p></triangles><polylist count='2'>" + input +
+            "<vcount>3 3</vcount><p>0 2 3 0 3 1</p></polylist>",
         "<lines count='1'>" + input + "<p>4 5</p></lines>" + "<tristrips count='1'>" + input +
             "<p>0 2 1 3</p></tristrips>"}) {
     SCOPED_TRACE(square);
@@ -431,7 +433,28 @@ TEST_F(LoadMeshTest, RefusesWhatAssimpTakesAnotherWayInCollada) {
       {"url=\"#box\"", "url=\"#bax\"", {":17: <instance_geometry url=\"#bax\">", "no <geometry>"}},
       {"url=\"#box\"", "url=\"b.dae#box\"", {":17: <instance_geometry url=\"b.dae#box\">"}},
       {"<rotate>", "<instance_node url='#box'/><rotate>", {":17: <instance_node", "no <node>"}},
-      {"<rotate>", controller + "<rotate>", {":17: <instance_controller>", "skinned"}}};
+      {"<rotate>", controller + "<rotate>", {":17: <instance_controller>", "skinned"}},
+      {"<rotate>", "<lookat>0 0 1 0 0 0 0 1 0</lookat><rotate>", {":17: <lookat>"}},
+      {"<triangles", "<trifans count='1'><p>0 1 2</p></trifans><triangles", {":12: <trifans>"}},
+      {"<triangles", "<convex_mesh/><triangles", {":12: <convex_mesh>"}},
+      {"<triangles",
+       "<triangles count='1'></triangles><triangles",
+       {":12: <triangles", "it has 0 <p>"}},
+      {"<triangles",
+       "<triangles><p>0 1 2</p></triangles><triangles",
+       {":12: <triangles", "it has 1 <p>"}},
+      {"<triangles",
+       "<polygons count='2'><p>0 1 2</p></polygons><triangles",
+       {":12: <polygons", "1 <p>"}},
+      {"<triangles",
+       "<tristrips count='2'><p>0 1 2</p></tristrips><triangles",
+       {":12: <tristrips", "1 <p>"}},
+      {"<triangles",
+       "<polylist count='1'><p>0 1 2</p></polylist><triangles",
+       {":12: <p>", "no <vcount>"}},
+      {"<triangles",
+       "<polygons count='1'><p>0 1 -1</p></polygons><triangles",
+       {":12: <p>", "below 0"}}};
   for (const auto& [what, by, message] : cases) {
     SCOPED_TRACE(what + " -> " + by);
     std::string text = dae;
@@ -444,6 +467,61 @@ TEST_F(LoadMeshTest, RefusesWhatAssimpTakesAnotherWayInCollada) {
       ExpectInputError([&file] { LoadMesh(file); }, parts);
     }
   }
+}
+
+TEST_F(LoadMeshTest, RefusesInstancesWithoutAnEnd) {
+  const auto with_node = [&](const std::string& inside, const std::string& after) {
+    std::string text = Dae(UnevenBoxMesh());
+    const std::string instance = "<instance_geometry";
+    text.insert(text.find(instance), "<node id='n0'>" + inside + "</node>" + after);
+    return folder_.Write("instances.dae", text);
+  };
+  const auto itself = with_node("<node><instance_node url='#n0'/></node>", "");
+  ExpectInputError([&] { LoadMesh(itself); }, {itself.string(), "<instance_node>", "itself"});
+  std::string doubled;
+  for (int i = 1; i <= 20; ++i) {
+    doubled += fmt::format(
+        "<node id='n{0}'><instance_node url='#n{1}'/><instance_node "
+        "url='#n{1}'/></node>",
+        i, i - 1);
+  }
+  const auto many = with_node("", doubled);
+  ExpectInputError([&] { LoadMesh(many); }, {many.string(), "<instance_node>", "more than"});
+  EXPECT_NO_THROW(LoadMesh(with_node("", "<node><instance_node url='#n0'/></node>")));
+}
+
+TEST_F(LoadMeshTest, WhatHasNoMeshIsRefused) {
+  const std::string dae = Dae(UnevenBoxMesh());
+  const std::size_t begin = dae.find("<triangles");
+  const std::size_t end = dae.find("</triangles>") + 12;
+  const auto file = folder_.Write("none.dae", std::string(dae).erase(begin, end - begin));
+  ExpectInputError([&file] { LoadMesh(file); }, {file.string()});
+}
+
+// As assimp cuts them, triangles lie beside such polygons or parts of them are left out.
+TEST_F(LoadMeshTest, PolygonsWithCornersInARowCloseTheirMesh) {
+  const std::string obj =
+      "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 3 1 0\nv 3 2 0\nv 2 2 0\nv 2 1 0\nv 1.5 1 0\nv 1 1 0\n"
+      "v 1 2 0\nv 0 2 0\nv 0 1 0\n";
+  std::string prism = obj + Replaced(obj, " 0\n", " 1\n");
+  std::string bottom = "f";
+  std::string top = "f";
+  for (int i = 1; i <= 13; ++i) {
+    const int next = i % 13 + 1;
+    bottom += fmt::format(" {}", 14 - i);
+    top += fmt::format(" {}", 13 + i);
+    prism += fmt::format("f {} {} {} {}\n", i, next, 13 + next, 13 + i);
+  }
+  const TriangleMesh mesh = LoadMesh(folder_.Write("comb.obj", prism + bottom + "\n" + top + "\n"));
+  const SolidMesh::Survey survey = SolidMesh(mesh).survey();
+  EXPECT_EQ(survey.open, 0);
+  EXPECT_NEAR(survey.volume, 5, 1e-6);
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3d& corner = mesh.vertices[a];
+    area += (mesh.vertices[b] - corner).cross(mesh.vertices[c] - corner).norm() / 2;
+  }
+  EXPECT_NEAR(area, 22, 1e-6);
 }
 
 TEST_F(LoadMeshTest, KeepsItsDigitsFarFromTheOrigin) {
