@@ -1,9 +1,11 @@
 #include "geometry/solid_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "common/disjoint_sets.h"
@@ -76,7 +78,13 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
     int triangles = 0;
     int balance = 0;  // triangles that run along it less those that run against it
   };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges;
+  struct Edges {
+    Edge all;
+    Edge once;  // of triangles with the same corners the first alone
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Edges> edges;
+  std::set<std::array<std::uint32_t, 3>> corners;
+  std::vector<bool> is_copy;
   DisjointSets parts(joined.vertices.size());
   std::vector<Triangle> all;
   std::vector<std::uint32_t> vertex_of;  // one vertex of each triangle
@@ -85,41 +93,61 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
   for (const auto& v : SurfaceTriangles(joined)) {
     all.push_back({joined.vertices[v[0]], joined.vertices[v[1]], joined.vertices[v[2]], true});
     vertex_of.push_back(v[0]);
+    auto sorted = v;
+    std::ranges::sort(sorted);
+    is_copy.push_back(!corners.insert(sorted).second);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = v[k];
       const std::uint32_t b = v[(k + 1) % 3];
-      Edge& edge = edges[std::minmax(a, b)];
-      ++edge.triangles;
-      edge.balance += a < b ? 1 : -1;
+      Edges& of_both = edges[std::minmax(a, b)];
+      for (Edge* const edge : {&of_both.all, &of_both.once}) {
+        if (is_copy.back() && edge == &of_both.once) continue;
+        ++edge->triangles;
+        edge->balance += a < b ? 1 : -1;
+      }
       parts.Join(a, b);
       known[a] = true;
     }
   }
 
-  struct Component {
-    bool seen = false;
+  struct Form {
     bool closed = true;
     bool oriented = true;
+
+    void Add(const Edge& edge) {
+      if (edge.triangles % 2 != 0) closed = false;
+      if (edge.balance != 0) oriented = false;
+    }
+  };
+  struct Component {
+    bool seen = false;
+    Form all;
+    Form once;
+
+    // Faces that are there twice, often one for either side, neither open nor undo what they are
+    // faces of; but of two solids that share one each needs its own.
+    const Form& form() const { return once.closed ? once : all; }
   };
   std::vector<Component> components(joined.vertices.size());  // by root vertex
-  for (const auto& [ends, edge] : edges) {
+  for (const auto& [ends, of_both] : edges) {
     Component& component = components[parts.Root(ends.first)];
-    if (edge.triangles % 2 != 0) component.closed = false;
-    if (edge.balance != 0) component.oriented = false;
+    component.all.Add(of_both.all);
+    component.once.Add(of_both.once);
   }
   for (std::size_t t = 0; t < all.size(); ++t) {
     Component& component = components[parts.Root(vertex_of[t])];
+    const Form& form = component.form();
     if (!component.seen) {
       component_points_.push_back(all[t].a);
       ++survey_.components;
-      if (!component.closed) ++survey_.open;
-      if (component.closed && !component.oriented) ++survey_.not_oriented;
+      if (!form.closed) ++survey_.open;
+      if (form.closed && !form.oriented) ++survey_.not_oriented;
     }
     component.seen = true;
-    all[t].oriented = component.oriented;
-    if (!component.closed) continue;
+    all[t].oriented = form.oriented;
+    if (!form.closed || (is_copy[t] && component.once.closed)) continue;
     triangles_.push_back(all[t]);
-    if (!component.oriented) continue;
+    if (!form.oriented) continue;
     // Of the pyramid over the triangle, seen from a vertex of the mesh.
     const Eigen::Vector3d& apex = mesh.vertices.front();
     survey_.volume += (all[t].a - apex).dot((all[t].b - apex).cross(all[t].c - apex)) / 6;

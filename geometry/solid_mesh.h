@@ -10,7 +10,8 @@ namespace planbench {
 
 /// What a triangle mesh says of the space it encloses. Vertices at equal coordinates are one vertex
 /// (STL files repeat them); a component is a set of triangles (SurfaceTriangles) joined by
-/// vertices, and is closed if every edge is shared by an even number of them.
+/// vertices, and is closed if every edge is shared by an even number of them: those with the same
+/// corners count as one, where that closes it.
 class SolidMesh {
  public:
   /// What its components are.

@@ -265,6 +265,33 @@ TEST(SolidMeshTest, InconsistentOrientationIsCountedByParity) {
   EXPECT_FALSE(SolidMesh(mesh).Contains({0.25, 0.1, 1.2}));
 }
 
+TEST(SolidMeshTest, FacesThatAreThereTwiceCountOnce) {
+  const Eigen::Vector3d off(0.9, 0, 0);
+  for (const bool other_way : {false, true}) {
+    SCOPED_TRACE(other_way);
+    const TriangleMesh again = other_way ? Inverted(Cube(1)) : Cube(1);
+    TriangleMesh mesh = Cube(1);
+    for (const auto& triangle : again.triangles) {
+      mesh.triangles.push_back(triangle);  // One, two, ... all of them.
+      const SolidMesh solid(mesh);
+      EXPECT_EQ(solid.survey().open, 0);
+      EXPECT_NEAR(std::abs(solid.survey().volume), 1, 1e-9);
+      EXPECT_TRUE(solid.Contains(kHere));
+      EXPECT_FALSE(solid.Contains(off));
+    }
+  }
+  // Two that share a face, which is there for either.
+  for (const bool inverted : {false, true}) {
+    const TriangleMesh second = inverted ? Inverted(Cube(1)) : Cube(1);
+    const SolidMesh solid(Join({{Cube(1), kHere}, {second, Eigen::Vector3d::UnitX()}}));
+    EXPECT_EQ(solid.survey().components, 1);
+    EXPECT_EQ(solid.survey().open, 0);
+    EXPECT_TRUE(solid.Contains(kHere));
+    EXPECT_TRUE(solid.Contains(off));
+    EXPECT_FALSE(solid.Contains(2 * off));
+  }
+}
+
 TEST(SolidMeshTest, OpenSurfacesHaveNoInside) {
   TriangleMesh open = Cube(2);
   open.triangles.pop_back();
