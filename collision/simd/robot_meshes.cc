@@ -37,6 +37,8 @@ constexpr std::size_t kMostMiddles = 64;
 constexpr int kNumSteps = 30;
 /// How far a prism's corners may be outside of the cylinder that it stands for, m.
 constexpr double kPrismError = 2e-5;
+/// Of a prism: as many as a radius of 65 m needs; those of larger ones are further outside.
+constexpr double kMostSides = 1 << 12;
 
 TriangleMesh MeshOf(const Shape& shape) {
   if (const auto* box = std::get_if<Box>(&shape)) return BoxMesh(box->size);
@@ -44,7 +46,8 @@ TriangleMesh MeshOf(const Shape& shape) {
   // There are no other shapes: in a URDF, and of what is attached see CompiledScene.
   const auto& cylinder = std::get<Cylinder>(shape);
   const double half_angle = std::acos(cylinder.radius / (cylinder.radius + kPrismError));
-  const int sides = std::max(8, static_cast<int>(std::ceil(std::numbers::pi / half_angle)));
+  const auto sides =
+      static_cast<int>(std::clamp(std::ceil(std::numbers::pi / half_angle), 8.0, kMostSides));
   return PrismMesh(cylinder.radius / std::cos(std::numbers::pi / sides), cylinder.length, sides);
 }
 

@@ -10,6 +10,7 @@
 
 #include "collision/collision_checker.h"
 #include "collision/link_geometry.h"
+#include "collision/simd/robot_meshes.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
 #include "tests/support/expect_input_error.h"
@@ -159,6 +160,24 @@ TEST(MeshesModelTest, RefusesRobotsWithoutTheirGeometry) {
   const Robot spheres_only = MakeRailRobot();
   ExpectInputError(make(spheres_only, CollisionModel::kMeshes),
                    {"rail_robot", "collision geometry", "meshes model"});
+}
+
+TEST(MeshesModelTest, PrismsOfHugeCylindersHaveAnEnd) {
+  constexpr double kRadius = 1e12;  // m
+  const LinkGeometry link{0, {PlacedShape{Cylinder{kRadius, 1}}}};
+  const RobotMeshes meshes({link}, {});
+  std::size_t num_triangles = 0;
+  for (const auto& patch : meshes.patches) {
+    for (const auto& group : patch.groups) {
+      num_triangles += group.triangles.size();
+      for (const Corners& triangle : group.triangles) {
+        const Eigen::Vector3d middle = (triangle[0] + triangle[1]) / 2;
+        if (triangle[0].z() == triangle[1].z()) continue;  // Of an edge within an end.
+        EXPECT_GT(middle.head<2>().norm(), kRadius * (1 - 1e-9));
+      }
+    }
+  }
+  EXPECT_LT(num_triangles, 100'000u);
 }
 
 }  // namespace
