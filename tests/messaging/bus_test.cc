@@ -146,7 +146,7 @@ TEST(BusTest, WithoutMulticastRouteSaysHowToMendIt) {
   for (const int ttl : {0, 1}) {
     const std::optional<std::string> said = InOwnNetwork([&] {
       try {
-        Bus bus("udpm://239.255.76.67:7667?ttl=" + std::to_string(ttl));
+        Bus bus(fmt::format("udpm://239.255.76.67:7667?ttl={}", ttl));
       } catch (const InputError& error) {
         return std::string(error.what());
       }
