@@ -355,7 +355,7 @@ TEST_F(LaunchedSession, OneThatIsNotToBeStartedAnewIsGivenUpAndItsRunsAreMissing
   EXPECT_EQ(Query(session, "SELECT count(*) FROM sessions WHERE finished"), 0);
   EXPECT_THAT(driver->Output(), testing::HasSubstr("2 OF 6 RUNS ARE MISSING"));
   EXPECT_THAT(driver->Errors(),
-              testing::HasSubstr("the planner 'mine' was given up: mine: no licence"));
+              testing::HasSubstr("the planner 'mine': given up: mine: no licence (2 runs)"));
 }
 
 TEST_F(LaunchedSession, InterruptedWhilePlannersAreStartedAnewLeavesNothingRunningAndResumes) {
