@@ -21,17 +21,21 @@ namespace fs = std::filesystem;
 /// Of the sockets of a UDP port, in the network that a process is in, what links to them say.
 std::set<std::string> SocketsOf(std::uint16_t port, const fs::path& process) {
   std::set<std::string> sockets;
-  std::ifstream table(process / "net" / "udp");
-  std::string line;
-  std::getline(table, line);  // names of the columns
-  while (std::getline(table, line)) {
-    // slot, local address, remote one, state, queues, timer, retransmissions, user, timeout, inode
-    std::string slot, local, skipped, inode;
-    std::istringstream columns(line);
-    columns >> slot >> local;
-    for (int column = 2; column < 9; ++column) columns >> skipped;
-    if (columns >> inode && local.ends_with(fmt::format(":{:04X}", port))) {
-      sockets.insert(fmt::format("socket:[{}]", inode));
+  // The second has those of Java, which speak IPv4 as well.
+  for (const char* protocol : {"udp", "udp6"}) {
+    std::ifstream table(process / "net" / protocol);
+    std::string line;
+    std::getline(table, line);  // names of the columns
+    while (std::getline(table, line)) {
+      // slot, local address, remote one, state, queues, timer, retransmissions, user, timeout,
+      // inode
+      std::string slot, local, skipped, inode;
+      std::istringstream columns(line);
+      columns >> slot >> local;
+      for (int column = 2; column < 9; ++column) columns >> skipped;
+      if (columns >> inode && local.ends_with(fmt::format(":{:04X}", port))) {
+        sockets.insert(fmt::format("socket:[{}]", inode));
+      }
     }
   }
   return sockets;
