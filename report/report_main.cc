@@ -68,9 +68,6 @@ std::vector<StoredSession> ReadImports(const Flags& flags,
   if (flags.imports.size() != flags.import_names.size()) {
     throw InputError("every --import FILE needs its --as NAME");
   }
-  for (const std::string& name : flags.import_names) {
-    if (name.empty()) throw InputError("--as '': expected NAME, which contestants have in tables");
-  }
   std::vector<StoredSession> imported;
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < flags.imports.size(); ++i) {

@@ -225,7 +225,7 @@ TEST_F(ReportProgramTest, ResultsFromElsewhereStandBesideTheSessions) {
   EXPECT_EQ(Run({Path("example"), "--import", Path("other.csv")}), kExitBadInput);
   EXPECT_THAT(errors_, HasSubstr("needs its --as NAME"));
   EXPECT_EQ(Run({Path("example"), "--import", Path("other.csv"), "--as", ""}), kExitBadInput);
-  EXPECT_THAT(errors_, HasSubstr("--as '': expected NAME"));
+  EXPECT_THAT(errors_, HasSubstr("--as: the text given is empty"));
   folder_.Write("none.csv", "problem_set,problem_index,solved,time_s\nbox,1,1,4\n");
   EXPECT_EQ(Run({Path("example"), "--import", Path("none.csv"), "--as", "x"}), kExitBadInput);
   EXPECT_THAT(errors_, HasSubstr("sets here: box; there: shelf"));
