@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "messaging/lcm_url.h"
 #include "tests/pipeline/pipeline_fixture.h"
+#include "tests/support/own_network.h"
 
 namespace planbench {
 namespace {
@@ -22,7 +22,7 @@ class TwoHosts : public PipelineTest {
       : PipelineTest(
             fmt::format("udpm://239.255.76.67:{}?ttl=1&recv_buf_size=4194304", FreeUdpPort())) {}
   ~TwoHosts() override {
-    for (const char* host : kHosts) Shell("ip netns del " + Namespace(host));
+    for (const char* host : kHosts) RunsInShell("ip netns del " + Namespace(host));
   }
 
   void SetUp() override {
@@ -36,7 +36,7 @@ class TwoHosts : public PipelineTest {
           "10.9.8.{1}/24 dev wire && ip -n {0} route add 224.0.0.0/4 dev wire",
           Namespace(host), host == kHosts[0] ? 1 : 2);
     }
-    if (!Shell(commands)) GTEST_SKIP() << "needs root and network namespaces";
+    if (!RunsInShell(commands)) GTEST_SKIP() << "needs root and network namespaces";
   }
 
   ChildProcess* StartOn(const std::string& host, const std::vector<std::string>& arguments,
@@ -62,9 +62,6 @@ class TwoHosts : public PipelineTest {
 
   static std::string Namespace(const std::string& host) {
     return fmt::format("{}-{}", host, getpid());
-  }
-  static bool Shell(const std::string& commands) {
-    return std::system(("exec 2>/dev/null; " + commands).c_str()) == 0;
   }
 };
 
@@ -146,9 +143,9 @@ TEST_F(TwoHosts, TheDoctorOnOneTellsWhatReachesIt) {
               testing::AllOf(testing::HasSubstr("does not hear this process"),
                              testing::HasSubstr("FAULT  reach: scene_server (10.9.8.1:")));
   ASSERT_TRUE(
-      Shell(fmt::format("ip -n {0} link set lo multicast on && "
-                        "ip -n {0} route replace 224.0.0.0/4 dev lo",
-                        Namespace("robot"))));
+      RunsInShell(fmt::format("ip -n {0} link set lo multicast on && "
+                              "ip -n {0} route replace 224.0.0.0/4 dev lo",
+                              Namespace("robot"))));
   EXPECT_THAT(doctor(url()),
               testing::AllOf(testing::HasSubstr("FAULT  reach: ttl=1, but the multicast route goes "
                                                 "by 'lo'"),

@@ -39,7 +39,7 @@ inline std::optional<std::string> InOwnNetwork(const std::function<std::string()
   return said;
 }
 
-/// Within such a network: runs commands of the shell; false if one failed, as where the user may
+/// Runs commands of the shell, as for such a network; false if one failed, as where the user may
 /// not use `ip`.
 inline bool RunsInShell(const std::string& commands) {
   return std::system(("exec 2>/dev/null; " + commands).c_str()) == 0;
