@@ -97,11 +97,12 @@ void EdgeChecker::StopWhen(std::function<bool()> should_stop) {
 }
 
 bool EdgeChecker::GiveUp() {
+  gave_up_ = false;
   if (!stopped_ && unasked_ < kSamplesUnasked) return false;
   unasked_ = 0;
-  const bool stop = should_stop_ && should_stop_();
-  stopped_ = stopped_ || stop;
-  return stop;
+  gave_up_ = should_stop_ && should_stop_();
+  stopped_ = stopped_ || gave_up_;
+  return gave_up_;
 }
 
 bool EdgeChecker::IsValidState(std::span<const double> q) {
@@ -163,6 +164,7 @@ bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const doub
   RequireSize(to);
   const ScopedTimer timer(&counters_.ticks);
   ++counters_.edges;
+  gave_up_ = false;
   return space().WithinLimits(from) && space().WithinLimits(to) &&
          !FindBlocked(from, to, from_is_free);
 }
@@ -181,6 +183,7 @@ double EdgeChecker::FindFreePart(std::span<const double> from, std::span<const d
   RequireSize(to);
   const ScopedTimer timer(&counters_.ticks);
   ++counters_.edges;
+  gave_up_ = false;
   if (!space().WithinLimits(from) || !space().WithinLimits(to)) return 0;
   const double motion = Move(from, to, &motion_);
   return method_ == EdgeCheck::kFixed ? FreeSamples(from, motion) : FreeStretches(from, to, motion);

@@ -69,6 +69,8 @@ class EdgeChecker {
   void StopWhen(std::function<bool()> should_stop);
   /// True if an edge was given up since StopWhen.
   bool Stopped() const { return stopped_; }
+  /// True if the edge that was asked about last was given up.
+  bool GaveUp() const { return gave_up_; }
   EdgeCheck method() const { return method_; }
 
   bool IsValidState(std::span<const double> q);
@@ -150,6 +152,7 @@ class EdgeChecker {
   Counters counters_;
   std::function<bool()> should_stop_;
   bool stopped_ = false;
+  bool gave_up_ = false;
   std::int64_t unasked_ = 0;  ///< Configurations of edges since should_stop_ was asked.
 
   // Scratch.

@@ -34,9 +34,7 @@ struct GoalSearch {
 
   TwoWaySearch two_way;
   std::optional<double> epsilon;  // to be proven
-  // Proven before the limit came within an edge, if it did: without that edge nothing is.
-  double lower_bound = 0;
-  TwoWaySearch::Counts before;  // the turn
+  TwoWaySearch::Counts before;    // the turn
 };
 
 class AraPlanner : public Planner {
@@ -93,15 +91,13 @@ class AraPlanner : public Planner {
       return out_of_memory || query.ShouldStop() || query.TurnIsOver();
     };
 
-    double& lower_bound = goal_search->lower_bound;
+    double lower_bound = 0;
     // Without wrapping nothing is proven.
     const auto told_lower_bound = [&] { return settings.wrap_heuristic ? lower_bound : 0; };
     bool reported = false;
     const auto report = [&](double proven) {
       if (search.cost() < query.known_cost()) query.HoldPath();
-      // Without an edge that was given up nothing more is proven; a better path is one all the
-      // same.
-      if (!query.edges().Stopped()) lower_bound = proven;
+      lower_bound = proven;
       reported = true;
       query.ReportSolution(told_lower_bound(), search.cost(),
                            search.counts().Since(goal_search->before).expansions);
@@ -112,7 +108,7 @@ class AraPlanner : public Planner {
     while (epsilon) {
       outcome = search.Improve(*epsilon, should_stop, report);
       if (search.best_cost() == kInfinity) {
-        if (!query.edges().Stopped()) lower_bound = search.ProveLowerBound();
+        lower_bound = search.ProveLowerBound();
         break;
       }
       if (const double proven = search.ProveLowerBound(); !reported || proven > lower_bound) {
@@ -152,7 +148,7 @@ class AraPlanner : public Planner {
     } else if (outcome == ImproveOutcome::kExhausted) {
       result.status = PlanStatus::kExhausted;
       result.message = "the lattice holds no path to the goal";
-      if (!query.edges().Stopped()) result.lower_bound = kInfinity;
+      result.lower_bound = kInfinity;
     } else if (outcome == ImproveOutcome::kConverged) {
       result.status = PlanStatus::kExhausted;
       result.message = "the lattice holds no cheaper path than that to another goal";
@@ -166,7 +162,7 @@ class AraPlanner : public Planner {
       result.status = PlanStatus::kTimedOut;
       result.message = "the time limit came before a path was found";
     }
-    if (outcome == ImproveOutcome::kStopped && !out_of_memory && !query.edges().Stopped()) {
+    if (outcome == ImproveOutcome::kStopped && !out_of_memory) {
       goal_search->before = search.counts();
       query.Keep(goal_search, search.bytes());
     } else {

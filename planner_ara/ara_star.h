@@ -20,20 +20,23 @@ struct CandidateEdge {
   std::uint16_t action = 0;     ///< The graph's own number of the edge among those of its source.
 };
 
+/// What is known of an edge.
+enum class EdgeVerdict : std::uint64_t { kUnknown = 0, kFree = 1, kBlocked = 2 };
+
 /// An implicit graph. State ids are dense: they are handed out from 0 upwards as states become
 /// known.
 /// - CandidateEdges(s, &edges) appends the edges out of s: those of the call before, but for their
 /// guides, and perhaps more (AraStar::ExpandAgain).
 /// - Target(s, action) is the state an edge leads to.
-/// - IsValidEdge(s, action) decides about an edge; asked only when it is the most promising one.
-/// The heuristic h is a lower bound of the cost to the goal, 0 at the goal, and consistent: h(s) <=
-/// cost + h(t) for every valid edge from s to t.
+/// - CheckEdge(s, action) decides about an edge, or gives it up (kUnknown); asked only when it is
+/// the most promising one. The heuristic h is a lower bound of the cost to the goal, 0 at the goal,
+/// and consistent: h(s) <= cost + h(t) for every valid edge from s to t.
 template <typename Graph>
 concept SearchGraph = requires(Graph graph, StateId state, std::vector<CandidateEdge>* edges,
                                std::uint16_t action) {
   graph.CandidateEdges(state, edges);
   { graph.Target(state, action) } -> std::same_as<StateId>;
-  { graph.IsValidEdge(state, action) } -> std::same_as<bool>;
+  { graph.CheckEdge(state, action) } -> std::same_as<EdgeVerdict>;
 };
 
 /// A state of a path and the edge that led to it.
@@ -79,7 +82,8 @@ class AraStar {
   /// Searches until best_cost() is proven to be at most `epsilon` (>= 1) times the optimum. A new
   /// value of epsilon, or another order, begins a new iteration. `should_stop` is asked before
   /// an edge is evaluated, before a state is expanded again, and every few thousand edges where
-  /// OPEN is put in another order. (That begins anew after a stop.)
+  /// OPEN is put in another order. (That begins anew after a stop.) It is to say so once an edge
+  /// was given up: that goes back to OPEN, where it counts in what is proven.
   ///
   /// In EdgeOrder::kGuide the edge with the least g + epsilon guide is followed first, and an
   /// iteration ends at its first path, if there is one better than those before. Whatever the order
@@ -216,7 +220,9 @@ class AraStar {
       incons_.push_back(edge);
       return;
     }
-    if (!graph_->IsValidEdge(edge.source, edge.action)) return;
+    const EdgeVerdict verdict = graph_->CheckEdge(edge.source, edge.action);
+    if (verdict == EdgeVerdict::kUnknown) open_.Push(edge);
+    if (verdict != EdgeVerdict::kFree) return;
     target.g = edge.g;
     target.parent = edge.source;
     target.action = edge.action;

@@ -396,13 +396,14 @@ int ManipulationGraph::WaypointOf(StateId source, std::uint16_t action) {
 
 void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates) {
   // Where the goal can be had at once, no guide is needed.
-  const bool by_tip = guide_->by_tip() && !(state == kStart && IsValidEdge(state, kToNearestGoal));
+  const bool by_tip = guide_->by_tip() &&
+                      !(state == kStart && CheckEdge(state, kToNearestGoal) == EdgeVerdict::kFree);
   if (by_tip) SelectSource(state);
   guide_->SelectSource(points_.Coordinates(state - 1),
                        by_tip ? std::span<const double>(from_) : std::span<const double>());
   const bool eager = options_.evaluation == Evaluation::kEager;
   const auto is_candidate = [&](std::uint16_t action) {
-    return !eager || IsValidEdge(state, action);
+    return !eager || CheckEdge(state, action) != EdgeVerdict::kBlocked;
   };
   if (is_candidate(kToNearestGoal)) {
     const double distance = std::sqrt(SquaredDistance(goal_terms_, points_.Coordinates(state - 1)));
@@ -456,7 +457,7 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
     const auto action = static_cast<std::uint16_t>(first_move_ + m);
     if (options_.burs) {
       const int times = SpineLength(state, move);
-      if (times > 0) Remember(state, action, Knowledge::kFree);
+      if (times > 0) Remember(state, action, EdgeVerdict::kFree);
       if (times > 1) offer(action | kSpine, times);
     }
     if (MoveFrom(state, move) && is_candidate(action)) offer(action, 1);
@@ -478,16 +479,18 @@ StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
   return TargetPoint(source, move, times) + 1;
 }
 
-bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
-  if ((action & kSpine) != 0) return true;
-  const Knowledge known = Recall(source, action);
-  if (known != Knowledge::kUnknown) return known != Knowledge::kBlocked;
-  if (action < kToRecalled) ++num_goal_connections_tried_;
+EdgeVerdict ManipulationGraph::CheckEdge(StateId source, std::uint16_t action) {
+  if ((action & kSpine) != 0) return EdgeVerdict::kFree;
+  const EdgeVerdict known = Recall(source, action);
+  if (known != EdgeVerdict::kUnknown) return known;
   SelectEdge(source, action);
   const bool valid = edges_->IsValidEdge(from_, to_, /*from_is_free=*/true);
+  if (edges_->GaveUp()) return EdgeVerdict::kUnknown;
+  if (action < kToRecalled) ++num_goal_connections_tried_;
   if (valid && action >= kToRecalled && action < kArmToGoal) ++num_recalled_edges_;
-  Remember(source, action, valid ? Knowledge::kFree : Knowledge::kBlocked);
-  return valid;
+  const EdgeVerdict verdict = valid ? EdgeVerdict::kFree : EdgeVerdict::kBlocked;
+  Remember(source, action, verdict);
+  return verdict;
 }
 
 // Sets from_ and to_ to the ends of an edge.
@@ -520,18 +523,17 @@ void ManipulationGraph::GoalConfiguration(std::uint16_t action, std::span<const 
   }
 }
 
-ManipulationGraph::Knowledge ManipulationGraph::Recall(StateId source, std::uint16_t action) {
-  if (known_edges_.size() <= source) return Knowledge::kUnknown;
+EdgeVerdict ManipulationGraph::Recall(StateId source, std::uint16_t action) {
+  if (known_edges_.size() <= source) return EdgeVerdict::kUnknown;
   const std::size_t bit = 2 * static_cast<std::size_t>(action);
-  return static_cast<Knowledge>(known_edges_.Record(source)[bit / 64] >> bit % 64 & 3);
+  return static_cast<EdgeVerdict>(known_edges_.Record(source)[bit / 64] >> bit % 64 & 3);
 }
 
-void ManipulationGraph::Remember(StateId source, std::uint16_t action, Knowledge knowledge) {
+void ManipulationGraph::Remember(StateId source, std::uint16_t action, EdgeVerdict verdict) {
   while (known_edges_.size() <= source) known_edges_.Append();
   const std::size_t bit = 2 * static_cast<std::size_t>(action);
   std::uint64_t& word = known_edges_.Record(source)[bit / 64];
-  word = (word & ~(std::uint64_t{3} << bit % 64)) | static_cast<std::uint64_t>(knowledge)
-                                                        << bit % 64;
+  word = (word & ~(std::uint64_t{3} << bit % 64)) | static_cast<std::uint64_t>(verdict) << bit % 64;
 }
 
 double ManipulationGraph::CostOf(const Path& path) const {

@@ -76,7 +76,8 @@ class ManipulationGraph {
 
   void CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates);
   StateId Target(StateId source, std::uint16_t action);
-  bool IsValidEdge(StateId source, std::uint16_t action);
+  /// kUnknown of an edge that was given up (EdgeChecker::StopWhen).
+  EdgeVerdict CheckEdge(StateId source, std::uint16_t action);
   /// Gives the states further edges: short moves everywhere, and moves of half the length of the
   /// finest. False, and nothing happens, if they are single cells already, there are no numbers
   /// left for more, or it is not allowed.
@@ -126,8 +127,6 @@ class ManipulationGraph {
     kArmToGoal = 4,   ///< And those after it, of several arms: one to the goal.
     kSpine = 0x8000
   };
-  // Of an edge, two bits each.
-  enum class Knowledge : std::uint64_t { kUnknown = 0, kFree = 1, kBlocked = 2 };
 
   struct Move {
     std::vector<int> cells;  // by joint
@@ -159,8 +158,8 @@ class ManipulationGraph {
   float ClearanceOf(StateId state);
   int SpineLength(StateId source, const Move& move);
   void SelectEdge(StateId source, std::uint16_t action);
-  Knowledge Recall(StateId source, std::uint16_t action);
-  void Remember(StateId source, std::uint16_t action, Knowledge knowledge);
+  EdgeVerdict Recall(StateId source, std::uint16_t action);
+  void Remember(StateId source, std::uint16_t action, EdgeVerdict verdict);
 
   EdgeChecker* edges_;
   GoalBox goal_;
@@ -180,7 +179,7 @@ class ManipulationGraph {
   std::vector<std::vector<double>> start_terms_;
   // As goal_terms_, of the ways that the guide leads.
   std::vector<std::vector<double>> terms_round_walls_;
-  ChunkedArray<std::uint64_t> known_edges_;  // by state
+  ChunkedArray<std::uint64_t> known_edges_;  // by state, two bits an edge
   ChunkedArray<float> clearances_;           // by state, m; 0 where it is not known
   // Without wrapping: by point, how many turns of each joint its first arrival was beyond Value().
   std::optional<ChunkedArray<std::int8_t>> turns_;

@@ -348,8 +348,7 @@ SearchResult Planner::SearchFor(const std::string& algorithm, const GoalBox& goa
       std::reverse(query->initial_path_.begin(), query->initial_path_.end());
     }
   }
-  // A turn ends between edges where there are more: one given up would be lost to a search that
-  // goes on.
+  // A turn ends between edges where there are more: one given up would have to be checked anew.
   edges.StopWhen([query] { return query->GoesOn() ? query->IsOver() : query->ShouldStop(); });
   SearchResult result = Search(*query);
   query->turn_ends_s_.reset();

@@ -321,10 +321,12 @@ TEST(EdgeCheckerTest, EdgesAreGivenUpWhenToldTo) {
     EXPECT_GT(configurations, 64);
     EXPECT_LE(configurations, 4 * 64);
     EXPECT_FALSE(edges.IsValidEdge(from, near)) << "though it is short";
+    EXPECT_TRUE(edges.GaveUp());
     EXPECT_EQ(edges.FindFreePart(from, near), 0);
     EXPECT_EQ(edges.counters().configurations, configurations);
     goes_on = true;
     EXPECT_TRUE(edges.IsValidEdge(from, near));
+    EXPECT_FALSE(edges.GaveUp());
     EXPECT_EQ(edges.FindFreePart(from, to), 1);
     EXPECT_TRUE(edges.Stopped()) << "an edge was given up";
     edges.StopWhen({});

@@ -183,6 +183,37 @@ TEST(AraStar, GoesOnWhereItWasStopped) {
   }
 }
 
+// Stopped within an edge each time.
+TEST(AraStar, AnEdgeThatWasGivenUpCountsAndIsCheckedLater) {
+  for (unsigned seed = 0; seed < kNumGraphs; ++seed) {
+    SCOPED_TRACE(seed);
+    ExplicitGraph at_once = RandomGraph(seed, kGoal);
+    ExplicitGraph in_steps = at_once;
+    const double optimum = TrueCosts(at_once, kStart, false)[kGoal];
+    const EdgeOrder order = seed % 2 == 0 ? EdgeOrder::kGuide : EdgeOrder::kHeuristic;
+    AraStar<ExplicitGraph> search_at_once(&at_once, kStart, kGoal);
+    AraStar<ExplicitGraph> search_in_steps(&in_steps, kStart, kGoal);
+    for (const double epsilon : {8.0, 1.3, 1.0}) {
+      const ImproveOutcome outcome = search_at_once.ImprovePath(epsilon, kNever, order);
+      double proven = 0;
+      ImproveOutcome last = ImproveOutcome::kStopped;
+      while (last == ImproveOutcome::kStopped) {
+        in_steps.checks_left = static_cast<int>(1 + seed % 3);
+        last = search_in_steps.ImprovePath(
+            epsilon, [&] { return in_steps.checks_left < 0; }, order);
+        const double lower_bound = search_in_steps.ProveLowerBound();
+        EXPECT_LE(lower_bound, optimum + 1e-9);
+        EXPECT_GE(lower_bound, std::min(proven, search_in_steps.best_cost()));
+        proven = lower_bound;
+      }
+      EXPECT_EQ(last, outcome);
+      EXPECT_EQ(search_in_steps.goal_cost(), search_at_once.goal_cost());
+    }
+    EXPECT_EQ(in_steps.expanded, at_once.expanded);
+    EXPECT_EQ(in_steps.num_validity_checks, at_once.num_validity_checks);
+  }
+}
+
 TEST(AraStar, IsDeterministic) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     ExplicitGraph first = RandomGraph(seed, kGoal);

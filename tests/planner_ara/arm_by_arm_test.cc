@@ -7,6 +7,7 @@
 #include "support/planning_problems.h"
 #include "support/two_arm_robot.h"
 #include "tests/planner_ara/bound_of.h"
+#include "tests/planner_ara/is_free.h"
 #include "tests/planner_ara/lattice_optimum.h"
 
 namespace planbench {
@@ -69,7 +70,7 @@ TEST_F(ArmByArmTest, EachArmHasTheMoveToWhereItStandsAtTheGoal) {
     }
     EXPECT_NEAR(edge.cost, edges_->space().Distance(start_, q), 1e-12);
     EXPECT_EQ(edge.target_heuristic, graph.Heuristic(target));
-    EXPECT_EQ(graph.IsValidEdge(ManipulationGraph::kStart, edge.action),
+    EXPECT_EQ(IsFree(graph, ManipulationGraph::kStart, edge.action),
               edges_->IsValidEdge(start_, q));
     if (arm == 0) left_there = target;
   }

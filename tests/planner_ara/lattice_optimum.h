@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner_ara/manipulation_graph.h"
+#include "tests/planner_ara/is_free.h"
 #include "tests/planner_ara/point_goal.h"
 
 namespace planbench {
@@ -29,7 +30,7 @@ inline double LatticeOptimum(EdgeChecker* edges, const Configuration& start,
     for (const CandidateEdge& edge : candidates) {
       const StateId t = graph.Target(s, edge.action);
       if (t >= costs.size()) costs.resize(t + 1, kInfinity);
-      if (costs[s] + edge.cost >= costs[t] || !graph.IsValidEdge(s, edge.action)) continue;
+      if (costs[s] + edge.cost >= costs[t] || !IsFree(graph, s, edge.action)) continue;
       costs[t] = costs[s] + edge.cost;
       queue.push({-costs[t], t});
     }

@@ -16,6 +16,7 @@
 #include "support/expect_input_error.h"
 #include "support/planning_problems.h"
 #include "tests/planner_ara/bound_of.h"
+#include "tests/planner_ara/is_free.h"
 #include "tests/planner_ara/point_goal.h"
 
 namespace planbench {
@@ -97,7 +98,7 @@ TEST_F(ManipulationGraphTest, MovesLeadFromLatticePointToLatticePoint) {
       }
       EXPECT_NEAR(edge.cost, space_.Distance(from, to), 1e-9);
       EXPECT_EQ(edge.target_heuristic, graph.Heuristic(t));
-      const bool valid = graph.IsValidEdge(s, edge.action);
+      const bool valid = IsFree(graph, s, edge.action);
       num_valid += valid ? 1 : 0;
       if (space_.WithinLimits(from) && edges_->IsValidState(from)) {
         EXPECT_EQ(valid, edges_->IsValidEdge(from, to));
@@ -149,7 +150,7 @@ TEST_F(ManipulationGraphTest, RefinesItsMovesDownToSingleCells) {
         moves.insert(cells_moved(edge));
       }
       const auto checked = edges_->counters().edges;
-      const bool valid = graph.IsValidEdge(state, edge.action);
+      const bool valid = IsFree(graph, state, edge.action);
       const auto [known, is_new] = verdicts.emplace(edge.action, valid);
       EXPECT_EQ(known->second, valid);
       EXPECT_EQ(edges_->counters().edges - checked, is_new ? 1 : 0) << "a verdict was forgotten";
@@ -176,7 +177,7 @@ TEST_F(ManipulationGraphTest, RandomMovesGoSomewhatBeyondTheLargestBothWays) {
   ManipulationGraph graph = Graph(PointGoal(kRight), options);
   std::map<std::uint16_t, bool> before;
   for (const CandidateEdge& edge : EdgesOf(&graph, ManipulationGraph::kStart)) {
-    before[edge.action] = graph.IsValidEdge(ManipulationGraph::kStart, edge.action);
+    before[edge.action] = IsFree(graph, ManipulationGraph::kStart, edge.action);
   }
   graph.AddRandomMoves(20, 1);
   Configuration from(3);
@@ -186,7 +187,7 @@ TEST_F(ManipulationGraphTest, RandomMovesGoSomewhatBeyondTheLargestBothWays) {
   std::set<std::vector<int>> moves;
   for (const CandidateEdge& edge : EdgesOf(&graph, ManipulationGraph::kStart)) {
     const auto checked = edges_->counters().edges;
-    const bool valid = graph.IsValidEdge(ManipulationGraph::kStart, edge.action);
+    const bool valid = IsFree(graph, ManipulationGraph::kStart, edge.action);
     if (const auto known = before.find(edge.action); known != before.end()) {
       EXPECT_EQ(valid, known->second);
       EXPECT_EQ(edges_->counters().edges, checked) << "a verdict was forgotten";
@@ -234,7 +235,7 @@ TEST_F(ManipulationGraphTest, SpinesOfBursAreFreeUnchecked) {
         Configuration to(3);
         graph.ConfigurationOf(target, to);
         const auto checked = edges_->counters().edges;
-        const bool valid = graph.IsValidEdge(s, edge.action);
+        const bool valid = IsFree(graph, s, edge.action);
         if (edges_->counters().edges > checked) continue;
         EXPECT_TRUE(valid);
         EXPECT_TRUE(fine.IsValidEdge(from, to)) << s;
@@ -281,13 +282,43 @@ TEST_F(ManipulationGraphTest, EagerEvaluationOffersTheValidEdgesOfALazyGraph) {
     ManipulationGraph from_here(edges_.get(), q, PointGoal(kRight), options);
     std::vector<std::uint16_t> valid;
     for (const CandidateEdge& edge : EdgesOf(&lazy, s)) {
-      if (lazy.IsValidEdge(s, edge.action)) valid.push_back(edge.action);
+      if (IsFree(lazy, s, edge.action)) valid.push_back(edge.action);
     }
     std::vector<std::uint16_t> offered;
     for (const CandidateEdge& edge : EdgesOf(&from_here, ManipulationGraph::kStart)) {
       offered.push_back(edge.action);
     }
     EXPECT_EQ(offered, valid) << "state " << s;
+  }
+}
+
+TEST_F(ManipulationGraphTest, AnEdgeThatWasGivenUpIsCheckedAnotherTime) {
+  for (const Evaluation evaluation : {Evaluation::kLazy, Evaluation::kEager}) {
+    ManipulationGraphOptions options = Options();
+    options.evaluation = evaluation;
+    const auto is_free = [&](ManipulationGraph* graph) {
+      std::vector<bool> free;
+      for (const CandidateEdge& edge : EdgesOf(graph, ManipulationGraph::kStart)) {
+        free.push_back(IsFree(*graph, ManipulationGraph::kStart, edge.action));
+      }
+      return free;
+    };
+    ManipulationGraph undisturbed = Graph(PointGoal(kRight), options);
+    const std::vector<bool> expected = is_free(&undisturbed);
+
+    ManipulationGraph graph = Graph(PointGoal(kRight), options);
+    edges_->StopWhen([] { return true; });
+    // Until it is asked for the first time.
+    const Configuration near = {0.7, 0, 0};
+    while (!edges_->Stopped()) edges_->IsValidEdge(kLeft, near);
+    const std::vector<CandidateEdge> offered = EdgesOf(&graph, ManipulationGraph::kStart);
+    EXPECT_EQ(offered.size(), 7u) << "none is blocked for certain";
+    for (const CandidateEdge& edge : offered) {
+      EXPECT_EQ(graph.CheckEdge(ManipulationGraph::kStart, edge.action), EdgeVerdict::kUnknown);
+    }
+    edges_->StopWhen({});
+    EXPECT_EQ(is_free(&graph), expected);
+    EXPECT_EQ(graph.num_goal_connections_tried(), 1);
   }
 }
 
@@ -353,7 +384,7 @@ TEST_F(ManipulationGraphTest, SearchAtEpsilonOneFindsWhatDijkstraFinds) {
       for (const CandidateEdge& edge : EdgesOf(&all, s)) {
         const StateId t = all.Target(s, edge.action);
         if (t >= costs.size()) costs.resize(t + 1, std::numeric_limits<double>::infinity());
-        if (costs[s] + edge.cost >= costs[t] || !all.IsValidEdge(s, edge.action)) continue;
+        if (costs[s] + edge.cost >= costs[t] || !IsFree(all, s, edge.action)) continue;
         costs[t] = costs[s] + edge.cost;
         queue.push({-costs[t], t});
       }
@@ -405,14 +436,14 @@ TEST_F(ManipulationGraphTest, RemembersWhatItHasChecked) {
   std::vector<bool> first;
   for (StateId s = 1; s < 100; ++s) {
     for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
-      first.push_back(graph.IsValidEdge(s, edge.action));
+      first.push_back(IsFree(graph, s, edge.action));
     }
   }
   EXPECT_EQ(edges_->counters().edges, static_cast<std::int64_t>(first.size()));
   std::vector<bool> second;
   for (StateId s = 1; s < 100; ++s) {
     for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
-      second.push_back(graph.IsValidEdge(s, edge.action));
+      second.push_back(IsFree(graph, s, edge.action));
     }
   }
   EXPECT_EQ(second, first);
@@ -470,7 +501,7 @@ TEST_F(ManipulationGraphTest, HasNoMoreMovesThanItCanNumber) {
   ManipulationGraph graph = Graph(PointGoal(kRight), options);
   const std::uint16_t last = EdgesOf(&graph, ManipulationGraph::kStart).back().action;
   EXPECT_EQ(last, 0x7fff);
-  graph.IsValidEdge(ManipulationGraph::kStart, last);
+  graph.CheckEdge(ManipulationGraph::kStart, last);
   EXPECT_EQ(edges_->counters().edges, 1) << "it was not checked";
   EXPECT_FALSE(graph.Refine()) << "no room for halves";
   EXPECT_EQ(EdgesOf(&graph, ManipulationGraph::kStart).back().action, last);

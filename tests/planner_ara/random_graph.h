@@ -22,6 +22,7 @@ struct ExplicitGraph {
 
   std::vector<StateId> expanded;  // in order
   int num_validity_checks = 0;
+  int checks_left = -1;     // then one is given up; negative: none is
   unsigned guide_seed = 0;  // of a guide without sense; 0: the heuristic
 
   explicit ExplicitGraph(std::size_t num_states) : edges(num_states), heuristic(num_states, 0) {}
@@ -42,9 +43,10 @@ struct ExplicitGraph {
   StateId Target(StateId source, std::uint16_t action) const {
     return edges[source][action].target;
   }
-  bool IsValidEdge(StateId source, std::uint16_t action) {
+  EdgeVerdict CheckEdge(StateId source, std::uint16_t action) {
+    if (checks_left-- == 0) return EdgeVerdict::kUnknown;
     ++num_validity_checks;
-    return edges[source][action].valid;
+    return edges[source][action].valid ? EdgeVerdict::kFree : EdgeVerdict::kBlocked;
   }
 };
 

@@ -159,6 +159,43 @@ TEST_F(TwoWaySearchTest, BoundHoldsWithRecalledPaths) {
   }
 }
 
+TEST_F(TwoWaySearchTest, BoundHoldsWhereverItIsStoppedWithinAnEdge) {
+  options_.shorten = false;
+  struct Variant {
+    Evaluation evaluation;
+    bool burs;
+    double bridge_after;
+  };
+  for (const Variant& variant :
+       {Variant{Evaluation::kLazy, false, kInfinity}, Variant{Evaluation::kEager, false, kInfinity},
+        Variant{Evaluation::kLazy, true, kInfinity}, Variant{Evaluation::kLazy, false, 500}}) {
+    options_.evaluation = variant.evaluation;
+    options_.burs = variant.burs;
+    options_.bridge_after = variant.bridge_after;
+    const double optimum = std::min(Optimum(kLeft_, kRight_), Optimum(kRight_, kLeft_));
+    TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
+    int num_stops = 0;
+    for (const double epsilon : {50.0, 1.5, 1.0}) {
+      for (ImproveOutcome outcome = ImproveOutcome::kStopped;
+           outcome == ImproveOutcome::kStopped;) {
+        int num_asked = 0;
+        bool stopped = false;
+        edges_->StopWhen([&] { return stopped = ++num_asked > 10 + num_stops; });
+        outcome = search.Improve(
+            epsilon, [&] { return stopped; }, kSilent);
+        num_stops += stopped ? 1 : 0;
+        const double lower_bound = search.ProveLowerBound();
+        EXPECT_LE(lower_bound, optimum + 1e-9);
+        edges_->StopWhen({});
+      }
+      EXPECT_LE(search.cost(), BoundOf(search) * optimum + 1e-9);
+      ExpectJoins(search.path(), search.cost());
+    }
+    EXPECT_LE(search.cost(), optimum + 1e-9);
+    EXPECT_GT(num_stops, 3);
+  }
+}
+
 TEST_F(TwoWaySearchTest, ShortensAPathOnlyIfItIsNotGoodEnough) {
   TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
   ASSERT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
