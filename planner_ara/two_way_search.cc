@@ -59,6 +59,7 @@ struct TwoWaySearch::Side {
       : root(start),
         target(goal.nominal),
         graph(edges, start, goal, options),
+        least_cost(options.wrap_heuristic ? graph.LeastCostTo(goal) : 0),
         search(&graph, ManipulationGraph::kStart, ManipulationGraph::kGoal) {}
 
   /// The fewer, the more often moves are blocked: the narrower the place. 1 at first.
@@ -69,6 +70,7 @@ struct TwoWaySearch::Side {
   Configuration root;
   Configuration target;
   ManipulationGraph graph;
+  double least_cost;  // that a path has, known before the search has begun
   AraStar<ManipulationGraph> search;
   bool converged = false;
   std::int64_t work = 0;
@@ -355,9 +357,9 @@ bool TwoWaySearch::WorkOnBridge(double epsilon, const std::function<bool()>& sho
 }
 
 double TwoWaySearch::ProveLowerBound() {
-  double lower_bound = kInfinity;
+  double lower_bound = best_cost();
   for (const auto& side : sides_) {
-    lower_bound = std::min(lower_bound, side->search.ProveLowerBound());
+    lower_bound = std::min(lower_bound, std::max(side->search.ProveLowerBound(), side->least_cost));
   }
   return lower_bound;
 }

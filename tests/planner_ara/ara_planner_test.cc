@@ -324,6 +324,7 @@ TEST_F(AraPlannerTest, TheLastProgressIsThePathReturnedWhereverTheLimitComes) {
     ASSERT_FALSE(result.progress.empty());
     ASSERT_EQ(result.progress.back().cost, result.cost);
     ASSERT_EQ(result.progress.back().epsilon, result.epsilon);
+    ASSERT_GE(result.progress.front().epsilon, 1) << "the straight motion is a lower bound";
   }
 }
 

@@ -161,6 +161,7 @@ TEST_F(TwoWaySearchTest, BoundHoldsWithRecalledPaths) {
 
 TEST_F(TwoWaySearchTest, BoundHoldsWhereverItIsStoppedWithinAnEdge) {
   options_.shorten = false;
+  const double straight = edges_->space().Distance(kLeft_, kRight_);
   struct Variant {
     Evaluation evaluation;
     bool burs;
@@ -185,6 +186,7 @@ TEST_F(TwoWaySearchTest, BoundHoldsWhereverItIsStoppedWithinAnEdge) {
             epsilon, [&] { return stopped; }, kSilent);
         num_stops += stopped ? 1 : 0;
         const double lower_bound = search.ProveLowerBound();
+        EXPECT_GE(lower_bound, straight - 1e-9);
         EXPECT_LE(lower_bound, optimum + 1e-9);
         edges_->StopWhen({});
       }
@@ -193,6 +195,29 @@ TEST_F(TwoWaySearchTest, BoundHoldsWhereverItIsStoppedWithinAnEdge) {
     }
     EXPECT_LE(search.cost(), optimum + 1e-9);
     EXPECT_GT(num_stops, 3);
+  }
+}
+
+TEST_F(TwoWaySearchTest, TheStraightMotionIsAProofBeforeASearchHasBegun) {
+  checker_->SetScene(EmptyPlanarScene(), std::vector<double>(4, 0.0));
+  for (const bool two_way : {false, true}) {
+    TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, two_way);
+    EXPECT_NEAR(search.ProveLowerBound(), edges_->space().Distance(kLeft_, kRight_), 1e-9);
+    int num_told = 0;
+    ASSERT_EQ(search.Improve(1 + 1e-9, kGoOn,
+                             [&](double lower_bound) {
+                               ++num_told;
+                               EXPECT_NEAR(lower_bound, search.cost(), 1e-9);
+                             }),
+              ImproveOutcome::kConverged);
+    EXPECT_EQ(num_told, 1);
+    EXPECT_EQ(search.counts().expansions, 1) << "the other direction has nothing to add";
+    // Without wrapping nothing is proven.
+    ManipulationGraphOptions options = options_;
+    options.wrap_heuristic = false;
+    EXPECT_EQ(
+        TwoWaySearch(edges_.get(), kLeft_, PointGoal(kRight_), options, two_way).ProveLowerBound(),
+        0);
   }
 }
 
