@@ -198,7 +198,10 @@ std::vector<RunColumn> MakeRunColumns() {
       ContactDepth("mesh_depth_simplified", kSimplified, kMesh),
 
       Quantity("epsilon", &PlanResult::epsilon),
-      Quantity("cost", &PlanResult::cost),
+      OfAnswer("cost", "REAL",
+               [](const PlanResult& p) {
+                 return TellsCost(p.cost, p.epsilon) ? Real(p.cost) : SqliteValue(kNull);
+               }),
       Counter("edges_checked"),
       Counter("configurations_checked"),
       Counter("iterations"),

@@ -29,11 +29,15 @@ inline std::string WhyTooLong(const Path& path) {
          std::to_string(kMostResultWaypoints);
 }
 
+/// Whether a planner tells what its path costs. 0 is no cost but where a bound of it is told, too:
+/// of a start that is in the goal.
+inline bool TellsCost(double cost, double epsilon) { return cost != 0 || epsilon != 0; }
+
 /// An improved solution of an anytime planner.
 struct PlanProgress {
   double elapsed_s = 0;  ///< On the clock of the planning time.
   double epsilon = 0;    ///< Proven suboptimality bound, >= 1; 0 if the planner gives none.
-  double cost = 0;       ///< In the planner's own unit; 0: none. Does not rise.
+  double cost = 0;       ///< In the planner's own unit (TellsCost). Does not rise.
   std::int64_t expansions = 0;
   bool operator==(const PlanProgress&) const = default;
 };
@@ -68,7 +72,7 @@ struct PlanResult {
   Path path;             ///< Raw; empty unless solved.
   Path simplified_path;  ///< After the shared pass; empty if not asked for.
   double epsilon = 0;    ///< Proven bound of the path's cost, >= 1; 0 if the planner gives none.
-  double cost = 0;       ///< In the planner's own unit; 0 if it has none.
+  double cost = 0;       ///< In the planner's own unit (TellsCost).
   std::vector<PlanProgress> progress;
   /// Counts by name: edges_checked, configurations_checked, and the planner's own (iterations,
   /// expansions, states, ...).

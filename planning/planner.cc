@@ -400,6 +400,10 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
              })) {
     found.status = PlanStatus::kSolved;
     found.path = {resolved.start};
+    if (description.anytime) {
+      found.lower_bound = kInfinity;  // No other path costs less than none.
+      query.ReportSolution(found.lower_bound, found.cost, 0);
+    }
   } else if (goals = KeepFreeGoals(edges, resolved.start, &resolved.goals,
                                    [&query] { return query.ShouldStop(); });
              goals.verdict == GoalVerdict::kInvalid) {

@@ -29,7 +29,7 @@ struct PlannerDescription {
   std::string algorithm;  ///< "ARA*", "RRT-Connect", ...
   PlannerClass planner_class = PlannerClass::kSampleThenSearch;
   bool backward = true;  ///< Can search backward.
-  bool anytime = false;  ///< Keeps improving when asked.
+  bool anytime = false;  ///< Keeps improving when asked. Its paths have costs.
   bool improve = false;  ///< Takes the initial path of a request, and improves it.
   /// Searches from both ends at once (a roadmap has no direction at all): a backward request is the
   /// same experiment as a forward one.

@@ -55,7 +55,8 @@ struct ImprovingTrial {
     if (run == nullptr) return found;
     for (const PlanProgress& one : InTime(*run)) {
       if (delay_s + one.elapsed_s > time_s) break;
-      if (one.*value > 0) found = one.*value;
+      // A cost of 0, which has a bound, is one (TellsCost).
+      if (one.*value > 0 || one.epsilon > 0) found = one.*value;
     }
     return found;
   }
@@ -101,7 +102,10 @@ AnytimeStep StepAt(double time_s, const std::map<int, std::vector<ImprovingTrial
     for (const ImprovingTrial& trial : trials) of_trials.push_back(trial.InHand(time_s, value));
     std::sort(of_trials.begin(), of_trials.end());
     double in_hand = QuantileInHand(of_trials, 0.5);
-    if (units != nullptr && std::isfinite(in_hand)) in_hand /= units->at(problem);
+    if (units != nullptr && std::isfinite(in_hand)) {
+      const double unit = units->at(problem);
+      in_hand = in_hand == unit ? 1 : in_hand / unit;
+    }
     of_problems.push_back(in_hand);
   }
   std::sort(of_problems.begin(), of_problems.end());
@@ -172,7 +176,7 @@ LowestCosts FindLowestCosts(const std::vector<const StoredRun*>& runs) {
   for (const StoredRun* run : runs) {
     if (!run->confirmed()) continue;
     for (const PlanProgress& one : InTime(*run)) {
-      if (!(one.cost > 0)) continue;
+      if (!(one.cost > 0 || one.epsilon > 0)) continue;
       double& cost = lowest.try_emplace(run->problem_index, one.cost).first->second;
       cost = std::min(cost, one.cost);
     }

@@ -55,14 +55,15 @@ bool CostsAreLengths(const std::vector<const StoredRun*>& runs);
 
 /// Lowest costs by problem index.
 using LowestCosts = std::map<int, double>;
-/// That confirmed runs on one set tell of their improvements by the time limit.
+/// That confirmed runs on one set tell of their improvements by the time limit; 0 where the start
+/// is in the goal.
 LowestCosts FindLowestCosts(const std::vector<const StoredRun*>& runs);
 
 /// Of runs of one contestant on one set, at kAnytimeSteps times between the first solution and the
 /// last improvement by the time limit, each so many times the one before. The attempts at a problem
 /// are folded as everywhere (FoldAttempts): without a confirmed path there is nothing in hand, and
-/// failed attempts before it take their time. Costs are over those of `lowest`. Both empty unless a
-/// confirmed run improved its solution; the bound's empty unless there are any.
+/// failed attempts before it take their time. Costs are over those of `lowest`; 0 over 0 is 1. Both
+/// empty unless a confirmed run improved its solution; the bound's empty unless there are any.
 inline constexpr int kAnytimeSteps = 60;
 AnytimeCurves ImprovementOverTime(const std::vector<const StoredRun*>& runs,
                                   const LowestCosts& lowest);

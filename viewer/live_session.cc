@@ -203,9 +203,10 @@ Json LiveSession::State(TimePoint now, const Bus::Counters& counters) const {
   json["progress"] = Json::array();
   const std::size_t num_shown = std::min(progress_.size(), kImprovementsShown);
   for (const PlanProgress& one : std::span(progress_).last(num_shown)) {
-    json["progress"].push_back({{"time_s", one.elapsed_s},
-                                {"cost", UnlessZero(one.cost)},
-                                {"bound", UnlessZero(one.epsilon)}});
+    json["progress"].push_back(
+        {{"time_s", one.elapsed_s},
+         {"cost", TellsCost(one.cost, one.epsilon) ? Json(one.cost) : Json()},
+         {"bound", UnlessZero(one.epsilon)}});
   }
   json["runs"] = Json::array();
   for (const RunRecordMessage& record : records_) {

@@ -164,6 +164,19 @@ TEST_F(ResultsDatabaseTest, ARunWithoutAnswerHasNoTimes) {
   EXPECT_EQ(Count("paths"), Int(0));
 }
 
+TEST_F(ResultsDatabaseTest, ACostOfNothingIsOneWhereItIsProven) {
+  RunRecordMessage record = SampleRecord();
+  record.result.result.cost = 0;
+  record.result.result.epsilon = 1;
+  database_.Store(record);
+  EXPECT_EQ(Run("cost"), SqliteValue(0.0));
+  EXPECT_EQ(Run("epsilon"), SqliteValue(1.0));
+  record = SampleRecord("request-2");
+  record.result.result.cost = record.result.result.epsilon = 0;
+  database_.Store(record);
+  EXPECT_EQ(Run("cost", "request-2"), kNull);
+}
+
 TEST_F(ResultsDatabaseTest, ARejectedPathIsNoSuccessButKept) {
   RunRecordMessage record = SampleRecord();
   record.status = PlanStatus::kInvalidPath;

@@ -49,6 +49,31 @@ TEST_F(PlannerTimesTest, PhasesAddUpToTheTotalTime) {
   EXPECT_GT(result.peak_memory_mb, 1);
 }
 
+TEST_F(PlannerTimesTest, AStartThatIsInTheGoalCostsNothing) {
+  PlanRequest request = MakeRequest(robot_, start_, start_, 0.1);
+  for (const bool anytime : {false, true}) {
+    request.anytime = anytime;
+    const PlanResult result = Plan(StraightLine, request);
+    EXPECT_EQ(num_searches_, 0);
+    EXPECT_EQ(result.status, PlanStatus::kSolved);
+    EXPECT_EQ(result.path, Path{start_});
+    EXPECT_EQ(result.cost, 0);
+    EXPECT_EQ(result.epsilon, 1);
+    ASSERT_EQ(result.progress.size(), anytime ? 1u : 0u);
+    if (!anytime) continue;
+    const double elapsed_s = result.progress[0].elapsed_s;
+    EXPECT_EQ(result.progress[0], (PlanProgress{elapsed_s, 1, 0, 0}));
+    EXPECT_EQ(result.planning_time_s, elapsed_s);
+  }
+  PlannerDescription without_costs = ScriptedPlanner::Able();
+  without_costs.anytime = false;
+  ScriptedPlanner planner(robot_, StraightLine, without_costs);
+  const PlanResult result = planner.Plan(request, EmptyPlanarScene(), nullptr);
+  EXPECT_EQ(result.path, Path{start_});
+  EXPECT_EQ(result.epsilon, 0);
+  EXPECT_TRUE(result.progress.empty());
+}
+
 TEST_F(PlannerTimesTest, TheFirstReportedSolutionStopsThePlanningClock) {
   PlanRequest request = Request();
   request.anytime = true;

@@ -172,6 +172,20 @@ TEST(ImprovementOverTimeTest, QuartilesOverTheProblemsOfWhatThereIsInHand) {
   EXPECT_EQ(curves.bound.back().lower, 3);  // between 1 and 5
 }
 
+TEST(ImprovementOverTimeTest, WhatCostsNothingIsTheBestThereIs) {
+  const std::vector<StoredRun> runs = {AnytimeRun(1, {{0.1, 4, 40, 1}, {1, 2, 20, 2}}),
+                                       AnytimeRun(2, {{0.1, 1, 0, 0}})};
+  EXPECT_EQ(FindLowestCosts(PointersTo(runs)), (LowestCosts{{1, 20}, {2, 0}}));
+  const AnytimeCurves curves = CurvesOf(runs);
+  EXPECT_EQ(curves.cost.front().lower, 1.25);  // between 1 and 2
+  EXPECT_EQ(curves.cost.back().upper, 1);
+  EXPECT_EQ(curves.bound.back().lower, 1.25);
+  EXPECT_EQ(curves.bound.back().upper, 1.75);
+  // Without a bound 0 is no cost.
+  const std::vector<StoredRun> untold = {AnytimeRun(1, {{0.1, 0, 0, 1}})};
+  EXPECT_TRUE(FindLowestCosts(PointersTo(untold)).empty());
+}
+
 TEST(ImprovementOverTimeTest, AProblemCountsOnceByTheMedianOfItsTrials) {
   const std::vector<PlanProgress> good = {{1, 0, 20, 1}, {2, 0, 10, 1}};
   std::vector<StoredRun> runs = {AnytimeRun(1, good, 1), AnytimeRun(1, good, 2),

@@ -223,6 +223,11 @@ TEST_F(LiveSessionTest, TellsTheImprovementsOfTheRequestShown) {
   ASSERT_EQ(state["progress"].size(), 1u);
   EXPECT_EQ(state["progress"][0]["cost"], 20);
   EXPECT_EQ(state["progress"][0]["bound"], 3);
+
+  progress.request_id = bus_.request.request_id;
+  progress.progress = {0.6, 1, 0, 7};
+  Hear("PLAN_PROGRESS_ARA", progress);
+  EXPECT_EQ(State()["progress"][1]["cost"], 0) << "proven";
 }
 
 TEST_F(LiveSessionTest, ImprovementsThatAreNoneAreNotShown) {
