@@ -93,20 +93,31 @@ void LoggerNode::OnMessage(const ReceivedMessage& message) {
 
 void LoggerNode::Write() {
   constexpr std::chrono::milliseconds kPatience{500};
+  // What the database has not taken when there is to be an end, and all that follows it, is in the
+  // event log alone, of which the database can be brought up to date.
+  const auto enter = [&](const ReceivedMessage& message) {
+    if (failure_) return;
+    try {
+      Persist([&] { recorder_.Enter(message); });
+    } catch (const std::exception&) {
+      failure_ = std::current_exception();
+      spdlog::error("what came last is in the event log alone: --resume stores it");
+    }
+  };
   try {
     while (true) {
       const std::optional<ReceivedMessage> message = queue_.Pop(kPatience);
       if (message) {
         // Each until it succeeds: what is tried again must not be logged again.
         Persist([&] { recorder_.Log(*message); });
-        Persist([&] { recorder_.Enter(*message); });
+        enter(*message);
       }
       if (!queue_.empty()) continue;
       Persist([&] { recorder_.Flush(); });
       if (queue_.closed()) return;
     }
   } catch (const std::exception&) {
-    failure_ = std::current_exception();
+    if (!failure_) failure_ = std::current_exception();
   }
 }
 

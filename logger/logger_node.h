@@ -47,7 +47,8 @@ class LoggerNode {
 
   /// Runs until `stop` (asked every 50 ms) says so, then records what was received so far. True if
   /// everything that came was recorded: nothing dropped, no run record refused. Throws
-  /// std::runtime_error if the folder cannot be written in the end.
+  /// std::runtime_error if the folder cannot be written in the end; if it is the database that
+  /// cannot, the event log has everything that came.
   bool Run(const std::function<bool()>& stop);
 
   std::int64_t num_dropped() const { return queue_.num_dropped(); }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "logger/rebuild.h"
 #include "messaging/channels.h"
 #include "sample_messages.h"
 #include "session_files.h"
@@ -284,6 +285,37 @@ TEST(LoggerNode, WhatTheDatabaseTakesLaterIsLoggedOnce) {
   EXPECT_TRUE(logger.Run(Now));
   EXPECT_EQ(CountRuns(results), 1);
   EXPECT_EQ(LoggedChannels(temporary / "s" / "s.lcmlog").count(channel::kRunRecord), 1);
+}
+
+TEST(LoggerNode, WhatTheDatabaseHasNotTakenAtTheEndIsInTheEventLog) {
+  const TemporaryFolder temporary;
+  Bus bus("memq://");
+  constexpr int kNumRuns = 10;
+  std::atomic<int> heard = 0;
+  {
+    LoggerNode logger(&bus, {.out = temporary / "s"});
+    const Subscription witness = bus.Subscribe<RunRecordMessage>(
+        channel::kRunRecord, [&](const RunRecordMessage&) { ++heard; });
+    MessageCollector<AckMessage> acks(&bus, channel::kRunRecordAck);
+    SqliteConnection other(temporary / "s" / "results.sqlite",
+                           SqliteConnection::Mode::kReadWriteCreate);
+    other.Execute("ALTER TABLE runs RENAME TO runs_elsewhere");
+    bus.Start();
+    for (int i = 0; i < kNumRuns; ++i) {
+      bus.Publish(channel::kRunRecord, SampleRecord(std::to_string(i)));
+    }
+    EXPECT_THROW(logger.Run([&] { return heard == kNumRuns; }), SqliteError);
+    EXPECT_TRUE(acks.messages().empty());
+    other.Execute("ALTER TABLE runs_elsewhere RENAME TO runs");
+  }
+  const auto event_log = temporary / "s" / "s.lcmlog";
+  EXPECT_EQ(LoggedChannels(event_log).count(channel::kRunRecord), kNumRuns);
+  EXPECT_TRUE(RebuildSession(event_log, {.out = temporary / "rebuilt"}));
+  EXPECT_EQ(CountRuns(temporary / "rebuilt" / "results.sqlite"), kNumRuns);
+  EXPECT_EQ(CountRuns(temporary / "s" / "results.sqlite"), 0);
+  Bus later("memq://");
+  LoggerNode(&later, {.out = temporary / "s", .resume = true});
+  EXPECT_EQ(CountRuns(temporary / "s" / "results.sqlite"), kNumRuns);
 }
 
 TEST(LoggerNode, TakesRecordsFromTheDriverAlone) {
