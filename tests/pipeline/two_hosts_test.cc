@@ -129,7 +129,7 @@ TEST_F(TwoHosts, TheDoctorOnOneTellsWhatReachesIt) {
   const auto doctor = [&](const std::string& bus) {
     ChildProcess* process = StartOn("robot", {Program("bus_doctor"), "--lcm-url", bus});
     process->Wait();
-    return process->Output();
+    return process->Output() + process->Errors();
   };
   std::string said;
   EXPECT_TRUE(WaitUntil([&] {
