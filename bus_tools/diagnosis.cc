@@ -136,7 +136,7 @@ Finding ReachFinding(const MulticastAddress& address) {
       interface ? fmt::format(" by '{}' (MTU {} bytes)", interface->name, interface->mtu_bytes)
                 : "";
   return {Kind::kNote,
-          fmt::format("reach: messages leave this machine{}, and others' are heard", way),
+          fmt::format("reach: messages leave this machine{}, and others' can be heard", way),
           "put ttl=0 into the URL, unless processes run on several machines: on all of them it has "
           "to be the session's network, and the same MTU"};
 }

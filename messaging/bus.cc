@@ -107,7 +107,7 @@ class OneWayReach {
     is_possible_ = false;  // to be told again
     spdlog::warn(
         "{} is on another machine and does not hear this process, whose messages stay on this one "
-        "({} has ttl=0{}): put ttl=1 into its --lcm-url if both are of one session, else take "
+        "({} has ttl=0{}): put ttl=1 into the --lcm-url here if both are of one session, else take "
         "another port",
         from.Text(), url_, url_.find("ttl=") == std::string::npos ? " by default" : "");
   }

@@ -70,7 +70,12 @@ std::optional<ReceivedMessage> PacketReader::ReadSmall(const PacketSender& sende
   std::span<const std::uint8_t> rest = packet.subspan(kSmallHeader);
   std::optional<std::string> channel = TakeChannel(&rest);
   if (!channel) return Malformed();
-  ++Hear(sender, Number(packet, 4, 4)).counters.received;
+  const std::uint32_t sequence = Number(packet, 4, 4);
+  Known& known = Hear(sender, sequence);
+  ++known.counters.received;
+  const std::uint32_t overtaken = known.missed & std::uint32_t{1} << (known.newest - sequence);
+  if (overtaken != 0) CountLost(&known, -1);
+  known.missed &= ~overtaken;
   return ReceivedMessage{*std::move(channel), {rest.begin(), rest.end()}};
 }
 
@@ -157,7 +162,7 @@ PacketReader::Known& PacketReader::Hear(const PacketSender& sender, std::uint32_
   const auto [place, is_new] = senders_.try_emplace(sender);
   Known& known = place->second;
   if (is_new) {
-    known = {sequence, false, {}, heard_.insert(heard_.end(), sender), pending_.end()};
+    known = {sequence, false, 0, {}, heard_.insert(heard_.end(), sender), pending_.end()};
     if (senders_.size() > kMaxSenders) {
       const auto oldest = senders_.find(heard_.front());
       if (oldest->second.pending != pending_.end()) GiveUp(oldest->second.pending);
@@ -171,8 +176,14 @@ PacketReader::Known& PacketReader::Hear(const PacketSender& sender, std::uint32_
   // A little earlier: the packet was repeated or overtaken. Much earlier: another process has got
   // the port.
   if (step > 0 || step < -kMostOvertaken) {
-    if (step > 0) CountLost(&known, step - 1);
-    if (step < 0 && known.pending != pending_.end()) GiveUp(known.pending);
+    if (step > 0) {
+      CountLost(&known, step - 1);
+      known.missed =
+          step < 32 ? known.missed << step | ((std::uint32_t{1} << step) - 2) : ~std::uint32_t{1};
+    } else {
+      known.missed = 0;
+      if (known.pending != pending_.end()) GiveUp(known.pending);
+    }
     known.newest = sequence;
     known.begun = false;
   }

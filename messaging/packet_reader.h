@@ -95,6 +95,9 @@ class PacketReader {
   struct Known {
     std::uint32_t newest = 0;  ///< Sequence number.
     bool begun = false;        ///< Fragments of the newest have come: it is pending or done with.
+    /// Of which of those before the newest, its bit being the lowest, nothing has come: they count
+    /// as lost, unless they were overtaken.
+    std::uint32_t missed = 0;
     SenderCounters counters;
     std::list<PacketSender>::iterator heard;
     std::list<Pending>::iterator pending;  ///< pending_.end() if none.
