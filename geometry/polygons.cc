@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/lexicographic_less.h"
+
 namespace planbench {
 namespace {
 
@@ -128,8 +130,25 @@ void Polygons::AddPolygon(std::span<const std::uint32_t> corners) {
 }
 
 std::vector<std::array<std::uint32_t, 3>> Triangulate(std::span<const Vector3d> polygon) {
-  if (polygon.size() < 3) return {};
-  return EarClipper(Flattened(polygon)).Clip();
+  const std::size_t n = polygon.size();
+  if (n < 3) return {};
+  if (n == 3) return {{0, 1, 2}};
+  // Not by the corner and the side that a file begins with.
+  const auto least = std::min_element(polygon.begin(), polygon.end(), LexicographicLess);
+  const auto first = static_cast<std::size_t>(least - polygon.begin());
+  const bool is_turned = LexicographicLess(polygon[(first + 1) % n], polygon[(first + n - 1) % n]);
+  std::vector<std::uint32_t> places;
+  std::vector<Vector3d> corners;
+  for (std::size_t i = 0; i < n; ++i) {
+    places.push_back(static_cast<std::uint32_t>((first + (is_turned ? n - i : i)) % n));
+    corners.push_back(polygon[places.back()]);
+  }
+  auto triangles = EarClipper(Flattened(corners)).Clip();
+  for (auto& triangle : triangles) {
+    for (std::uint32_t& corner : triangle) corner = places[corner];
+    if (is_turned) std::swap(triangle[1], triangle[2]);
+  }
+  return triangles;
 }
 
 }  // namespace planbench

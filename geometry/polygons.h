@@ -32,10 +32,12 @@ class Polygons {
 };
 
 /// Cuts a polygon of n corners into n - 2 triangles of its corners' places, turned as it is, by
-/// clipping ears (Meisters, "Polygons have ears", 1975), and convex ones into a fan about the first
-/// corner. Whatever it is (corners in a row or in one place, bridges to holes, not flat, across
-/// itself), each of its edges is one of one triangle and any other of two, so that no surface is
-/// opened; of a flat one that does not cross itself the triangles are exactly what is within.
+/// clipping ears (Meisters, "Polygons have ears", 1975), and convex ones into a fan about the
+/// corner that is least by x, y and z. The cut is the same whichever corner and side it begins
+/// with: faces that are there for both sides are so as triangles. Whatever it is (corners in a row
+/// or in one place, bridges to holes, not flat, across itself), each of its edges is one of one
+/// triangle and any other of two, so that no surface is opened; of a flat one that does not cross
+/// itself the triangles are exactly what is within.
 std::vector<std::array<std::uint32_t, 3>> Triangulate(std::span<const Eigen::Vector3d> polygon);
 
 }  // namespace planbench

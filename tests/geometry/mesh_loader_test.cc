@@ -552,6 +552,17 @@ TEST_F(LoadMeshTest, CommentsOfColladaDoNotCount) {
   ExpectInputError([&file] { LoadMesh(file); }, {file.string() + ":4: <unit meter=\"0\">"});
 }
 
+TEST_F(LoadMeshTest, PolygonsForBothSidesLeaveASolidSolid) {
+  const std::string box =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
+      "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  for (const char* back : {"", "f 7 8 6 5\n", "f 8 6 5 7\n", "f 2 4 3 1\nf 5 6 2 1\n"}) {
+    const SolidMesh solid(LoadMesh(folder_.Write("box.obj", box + back)));
+    EXPECT_TRUE(solid.Contains({0.3, 0.4, 0.5})) << back;
+    EXPECT_FALSE(solid.Contains({0.3, 0.4, 1.5})) << back;
+  }
+}
+
 TEST_F(LoadMeshTest, RefusesScalesThatFlattenOrAreNoNumbers) {
   const auto file = folder_.Write("box.stl", BinaryStl(UnevenBoxMesh()));
   ExpectInputError([&] { LoadMesh(file, Vector3d(1, 0, 1)); }, {file.string(), "scale"});

@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "geometry/lexicographic_less.h"
 #include "tests/support/trials.h"
 
 namespace planbench {
@@ -98,6 +99,42 @@ TEST_F(TriangulateTest, ConvexOnesAreFans) {
   EXPECT_EQ(Triangulate(square), (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(Triangulate(std::span(square).first(3)), (Triangles{{0, 1, 2}}));
   EXPECT_TRUE(Triangulate(std::span(square).first(2)).empty());
+}
+
+// The corners of each triangle, in order, of them all.
+std::vector<std::vector<Vector3d>> Cut(const Polygon& polygon) {
+  std::vector<std::vector<Vector3d>> cut;
+  for (const auto& triangle : Triangulate(polygon)) {
+    std::vector<Vector3d>& corners = cut.emplace_back();
+    for (const std::uint32_t corner : triangle) corners.push_back(polygon[corner]);
+    std::sort(corners.begin(), corners.end(), LexicographicLess);
+  }
+  std::sort(cut.begin(), cut.end(), [](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), LexicographicLess);
+  });
+  return cut;
+}
+
+TEST_F(TriangulateTest, BothSidesAreCutAlikeWhereverTheyBegin) {
+  std::mt19937_64 generator(1);
+  std::uniform_real_distribution<double> radius(0.2, 1);
+  Polygon star;
+  for (int i = 0; i < 9; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 9;
+    const double r = radius(generator);
+    star.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.3 * r * std::cos(angle));
+  }
+  for (const Polygon& polygon : {star, Polygon{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}}) {
+    const auto cut = Cut(polygon);
+    Polygon other = polygon;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      std::rotate(other.begin(), other.begin() + 1, other.end());
+      EXPECT_EQ(Cut(other), cut);
+      std::reverse(other.begin(), other.end());
+      EXPECT_EQ(Cut(other), cut);
+      ExpectExact(other);
+    }
+  }
 }
 
 TEST_F(TriangulateTest, StarsCombsAndFramesAreExact) {
