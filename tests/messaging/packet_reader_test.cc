@@ -206,7 +206,8 @@ TEST(PacketReader, OvertakenMessagesAreNotLost) {
                  generator);
   }
   for (const std::uint32_t sequence : order) {
-    if (sequence % 100 != 50) EXPECT_TRUE(reader.Read(kAlice, Small(sequence, "A", ""), 0));
+    if (sequence % 100 == 50) continue;
+    EXPECT_TRUE(reader.Read(kAlice, Small(sequence, "A", ""), 0));
   }
   EXPECT_EQ(reader.counters().lost,
             std::count_if(order.begin(), order.end(),
